@@ -60,7 +60,7 @@ bool run_dopri5(const Scene& scene, solve::Tolerances tolerances, Rows& rows) {
       [&](const auto& system) {
         using State = std::array<double, std::decay_t<decltype(system)>::size>;
         const auto rates = [&system](const State& at, State& slope, double t) {
-          system.derivative(t, at.data(), slope.data());
+          model::derivative(system, t, at.data(), slope.data());
         };
         return run_odeint<State>(scene, tolerances, rates, rows);
       },

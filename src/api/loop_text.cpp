@@ -59,12 +59,10 @@ struct LoopPoles {
 };
 
 LoopPoles loop_poles(const model::Model& model) {
-  if (model.rig && model.rig->sampled) {
-    model::Eigenvalues poles = model::sampled_poles(model);
-    return {true, poles, model::stable_by_period(poles), model::growing_by_period(poles)};
-  }
-  model::Eigenvalues poles = model::closed_loop_poles(model);
-  return {false, poles, model::stable(poles), model::growing(poles)};
+  const bool sampled = model.rig && model.rig->sampled;
+  model::Eigenvalues poles =
+      sampled ? model::sampled_poles(model) : model::closed_loop_poles(model);
+  return {sampled, poles, model::stable(poles, sampled), model::growing(poles, sampled)};
 }
 
 std::string instability(const model::Model& model) {

@@ -87,30 +87,34 @@ System open_loop(Shape shape, const Scenario& scene, SignalPair motion) {
   return OpenLoop<Shape::full>(r, g, std::move(motion));
 }
 
-std::vector<double> initial_state(const Scenario& scene, Shape shape) {
-  if (needs_coupled(scene)) return initial_coupled_state(scene);
+// In the system's layout. Three servos start at home; all states after the angles' rates at zero.
+template <class AnySystem>
+std::vector<double> initial_state(const Scenario& scene, const AnySystem& /*system*/) {
+  constexpr bool phi = phi_moves(AnySystem::moves), theta = theta_moves(AnySystem::moves);
   const Ball& ball = scene.ball;
   const GimbalStart& start = scene.gimbal.start;
   std::vector<double> z;
-  switch (shape) {
-    case Shape::full:
-      z = {ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
-           ball.radius * ball.spin};
-      break;
-    case Shape::along_x:
-      z = {ball.position[0], ball.velocity[0]};
-      break;
-    case Shape::along_y:
-      z = {ball.position[1], ball.velocity[1]};
-      break;
+  if (phi) z.push_back(ball.position[0]);
+  if (theta) z.push_back(ball.position[1]);
+  if (phi) z.push_back(ball.velocity[0]);
+  if (theta) z.push_back(ball.velocity[1]);
+  if (phi && theta) z.push_back(ball.radius * ball.spin);
+  constexpr bool given =
+      AnySystem::open_loop || (is_coupled<AnySystem> && !is_coupled_loop<AnySystem>);
+  if (!given && !scene.gimbal.three_servos) {
+    if (phi) z.push_back(start.phi);
+    if (theta) z.push_back(start.theta);
+    if (phi) z.push_back(start.phi_rate);
+    if (theta) z.push_back(start.theta_rate);
   }
-  if (scene.controller) {
-    if (phi_moves(shape)) z.push_back(start.phi);
-    if (theta_moves(shape)) z.push_back(start.theta);
-    if (phi_moves(shape)) z.push_back(start.phi_rate);
-    if (theta_moves(shape)) z.push_back(start.theta_rate);
+  z.resize(AnySystem::size, 0.0);
+  if constexpr (is_coupled<AnySystem>) {
+    constexpr std::size_t slip = AnySystem::Layout::slip;
+    if (ball.rotation) {
+      z[slip] = ball.velocity[0] - ball.radius * (*ball.rotation)[1];
+      z[slip + 1] = ball.velocity[1] + ball.radius * (*ball.rotation)[0];
+    }
   }
-  if (integrates_error(scene)) z.insert(z.end(), 2, 0.0);
   return z;
 }
 
@@ -148,12 +152,12 @@ Model assemble(const Scenario& scenario, scenario::Integrals integrals, Form for
     std::ranges::sort(knots);
   }
   std::vector<double> stops = stops_at(knots, scenario.time.end);
-  std::vector<double> jumps = stops_at(input.jumps(), scenario.time.end);
+  std::vector<double> jumps = stops_at(input.knots(true), scenario.time.end);
   const Shape shape = form == Form::reduced ? choose_shape(scenario, input) : Shape::full;
 
   std::optional<Rig> rig;
   std::optional<DryParts> dry;
-  const auto system = [&]() -> System {
+  const auto build = [&]() -> System {
     const double r = scenario.ball.radius, g = scenario.gravity;
     if (needs_coupled(scenario)) {
       CoupledScene coupled = assemble_coupled(scenario, std::move(input));
@@ -181,8 +185,11 @@ Model assemble(const Scenario& scenario, scenario::Integrals integrals, Form for
     }
     return closed_loop<Drives::acceleration>(shape, scenario, std::move(input));
   };
-  Model model{system(),
-              initial_state(scenario, shape),
+  System system = build();
+  std::vector<double> initial =
+      std::visit([&](const auto& any) { return initial_state(scenario, any); }, system);
+  Model model{std::move(system),
+              std::move(initial),
               integrals.gamma && shape == Shape::full,
               scenario.ball.radius,
               std::move(stops),

@@ -57,7 +57,4 @@ struct CoupledScene {
 // Times at which a derivative of the push on the ball jumps, s.
 [[nodiscard]] std::vector<double> push_knots(const Scenario& scene);
 
-// The initial state, in the system's layout.
-[[nodiscard]] std::vector<double> initial_coupled_state(const Scenario& scene);
-
 }  // namespace bbsim::model

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Builds the systems of scenes with couples, sliding, pushes or torques.
-#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -12,12 +11,6 @@
 
 namespace bbsim::model {
 namespace {
-
-CoupledParts coupled_parts(const Scenario& scene) {
-  CoupledParts parts;
-  parts.ball = coupled_ball(scene);
-  return parts;
-}
 
 MotorLaw motor_law(const Scenario& scene) {
   const Motor motor = scene.gimbal.motor.value_or(Motor{});
@@ -30,9 +23,8 @@ MotorLaw motor_law(const Scenario& scene) {
     law.from_rate = motor.position_loop->kd;
     law.from_integral = motor.position_loop->ki;
   } else if (scene.controller && scene.controller->drives == Drives::voltage) {
-    const DcMotor& dc = *motor.dc;
-    const double torque_by_current = dc.gear * dc.torque_constant;
-    law.from_command = torque_by_current / dc.resistance;
+    const auto [resistance, torque_by_current] = constants_of(scene).armature;
+    law.from_command = torque_by_current / resistance;
     law.from_rate = torque_by_current * law.from_command;
   }
   return law;
@@ -55,9 +47,9 @@ DryParts dry_parts(const Scenario& scene) {
   dry.torque_limit = motor.torque_limit.value_or(unlimited);
   dry.integrates = motor.position_loop && motor.position_loop->ki > 0;
   if (motor.dc && motor.dc->voltage_limit) {
-    const double torque_by_current = motor.dc->gear * motor.dc->torque_constant;
-    dry.stall_torque = torque_by_current * *motor.dc->voltage_limit / motor.dc->resistance;
-    dry.torque_by_rate = torque_by_current * torque_by_current / motor.dc->resistance;
+    const auto [resistance, torque_by_current] = constants_of(scene).armature;
+    dry.stall_torque = torque_by_current * *motor.dc->voltage_limit / resistance;
+    dry.torque_by_rate = torque_by_current * torque_by_current / resistance;
   }
   return dry;
 }
@@ -66,19 +58,12 @@ DryParts dry_parts(const Scenario& scene) {
 
 CoupledBall coupled_ball(const Scenario& scene) {
   const Ball& ball = scene.ball;
-  CoupledBall coupled;
-  coupled.r = ball.radius;
-  coupled.m = ball.mass;
-  coupled.g = scene.gravity;
-  coupled.rolling = general_rolling(scene);
+  const BallConstants of = constants_of(scene);
+  CoupledBall coupled{of.radius, of.mass, of.gravity, of.rolling, {}, of.body};
   coupled.law.rolling = ball.losses.rolling;
   coupled.law.viscous = ball.losses.viscous / (ball.mass * ball.radius * ball.radius);
   coupled.law.pivoting = ball.losses.pivoting / ball.radius;
   if (scene.events.slip) coupled.law.sliding = scene.events.slip->sliding.value_or(0);
-  if (scene.plate.inertia) std::ranges::copy(*scene.plate.inertia, coupled.body.plate);
-  coupled.body.imbalance = scene.plate.mass * scene.plate.centre_of_mass;
-  coupled.body.ring = scene.gimbal.ring_inertia;
-  if (scene.gimbal.motor) coupled.body.rotor = scene.gimbal.motor->rotor_inertia;
   return coupled;
 }
 
@@ -115,17 +100,13 @@ RigLoop<true, SignalPair, Link> torque_loop(const Scenario& scene, const Coupled
 template <class Link>
 CoupledScene coupled_loop(const Scenario& scene, const CoupledParts& parts, SignalPair input) {
   using Loop = CoupledLoop<SignalPair, Link>;
-  CoupledScene result{CoupledGiven<>(parts, {}), {}, {}};
-  const auto put = [&](Loop loop) {
-    if constexpr (Loop::pushes) loop.push.on = push_on(scene);
-    result.system = std::move(loop);
-  };
+  typename Loop::template PushOf<SignalPair> push;
+  if constexpr (Loop::pushes) push.on = push_on(scene);
   const bool torques = scenario::moved_by_torques(scene);
   if constexpr (Link::servos == 2) {
     if (!scene.controller) {
-      put({parts, GimbalBy::given_torques, motor_law(scene),
-           torque_loop<Link>(scene, parts, std::move(input))});
-      return result;
+      return {Loop(parts, GimbalBy::given_torques, motor_law(scene),
+                   torque_loop<Link>(scene, parts, std::move(input)), push)};
     }
   }
   const GimbalBy by = torques ? GimbalBy::torques : GimbalBy::servos;
@@ -136,66 +117,34 @@ CoupledScene coupled_loop(const Scenario& scene, const CoupledParts& parts, Sign
     return plant_at_home(CoupledLoop<>(parts, by, motor, held));
   };
   AssembledRig<true, Link> assembled = assemble_rig<true, Link>(scene, std::move(input), plant);
-  Loop loop(parts, by, motor, assembled.loop);
+  Loop loop(parts, by, motor, assembled.loop, push);
   loop.integrate_error(integrates_error(scene));
-  put(std::move(loop));
-  result.rig = assembled.rig;
-  return result;
+  return {std::move(loop), assembled.rig};
 }
 
 }  // namespace
 
 CoupledScene assemble_coupled(const Scenario& scene, SignalPair input) {
-  const CoupledParts parts = coupled_parts(scene);
+  const CoupledParts parts{coupled_ball(scene)};
   const DryParts dry = dry_parts(scene);
-  const auto with_dry = [&dry](CoupledScene result) {
-    if (dry.switches()) result.dry = dry;
-    return result;
-  };
-  if (scene.gimbal.motion) {
-    if (scene.ball.push) {
-      return with_dry(
-          {CoupledGiven<SignalPair, true>(parts, std::move(input), {push_on(scene)}), {}, {}});
+  const auto without_dry = [&]() -> CoupledScene {
+    if (scene.gimbal.motion) {
+      if (!scene.ball.push) return {CoupledGiven<>(parts, std::move(input))};
+      return {CoupledGiven<SignalPair, true>(parts, std::move(input), {push_on(scene)})};
     }
-    return with_dry({CoupledGiven<>(parts, std::move(input)), {}, {}});
-  }
-  if (scene.gimbal.three_servos) {
-    return with_dry(coupled_loop<ThreeServos>(scene, parts, std::move(input)));
-  }
-  if (scene.ball.push || scenario::is_linked(scene)) {
-    return with_dry(coupled_loop<Linkages>(scene, parts, std::move(input)));
-  }
-  return with_dry(coupled_loop<Direct>(scene, parts, std::move(input)));
+    if (scene.gimbal.three_servos) return coupled_loop<ThreeServos>(scene, parts, std::move(input));
+    if (scene.ball.push || scenario::is_linked(scene)) {
+      return coupled_loop<Linkages>(scene, parts, std::move(input));
+    }
+    return coupled_loop<Direct>(scene, parts, std::move(input));
+  };
+  CoupledScene result = without_dry();
+  if (dry.switches()) result.dry = dry;
+  return result;
 }
 
 std::vector<double> push_knots(const Scenario& scene) {
   return push_on(scene).knots();
-}
-
-std::vector<double> initial_coupled_state(const Scenario& scene) {
-  const Ball& ball = scene.ball;
-  const double r = ball.radius;
-  std::vector<double> z{ball.position[0], ball.position[1], ball.velocity[0], ball.velocity[1],
-                        r * ball.spin};
-  std::size_t slip = CoupledGivenLayout::slip, size = CoupledGivenLayout::states;
-  if (!scene.gimbal.motion) {
-    const GimbalStart& start = scene.gimbal.start;
-    if (scene.gimbal.three_servos) {
-      z.insert(z.end(), 6, 0.0);  // at home
-      slip = CoupledLayout<3>::slip;
-      size = CoupledLayout<3>::states;
-    } else {
-      z.insert(z.end(), {start.phi, start.theta, start.phi_rate, start.theta_rate});
-      slip = CoupledLoopLayout::slip;
-      size = CoupledLoopLayout::states;
-    }
-  }
-  z.resize(size, 0.0);
-  if (ball.rotation) {
-    z[slip] = ball.velocity[0] - r * (*ball.rotation)[1];
-    z[slip + 1] = ball.velocity[1] + r * (*ball.rotation)[0];
-  }
-  return z;
 }
 
 }  // namespace bbsim::model

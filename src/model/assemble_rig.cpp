@@ -172,17 +172,19 @@ bool integrates_error(const Scenario& scene) {
 
 namespace {
 
-// Takes the mechanism from the rig, including servos that turn the plane directly.
-void take_link(const Rig&, Direct&) {}
-void take_link(const Rig& rig, Linkages& link) {
-  link = rig.mechanism.at_home();
-  // A direct drive has only the plane's offset.
-  for (int i = 0; rig.mechanism.none() && i < 2; ++i) {
-    link.of[i].set_offsets(rig.servo[i].offset, 0);
+// The rig's mechanism, including servos that turn the plane directly.
+template <class Link>
+Link link_of(const Rig& rig) {
+  Link link;
+  if constexpr (std::is_same_v<Link, ThreeServos>) link = *rig.mechanism.three;
+  if constexpr (std::is_same_v<Link, Linkages>) {
+    link = rig.mechanism.at_home();
+    // A direct drive has only the plane's offset.
+    for (int i = 0; rig.mechanism.none() && i < 2; ++i) {
+      link.of[i].set_offsets(rig.servo[i].offset, 0);
+    }
   }
-}
-void take_link(const Rig& rig, ThreeServos& link) {
-  link = *rig.mechanism.three;
+  return link;
 }
 
 }  // namespace
@@ -198,8 +200,7 @@ AssembledRig<integrates, Link> assemble_rig(const Scenario& scene, SignalPair re
   const ControlLaw law = control_law(scene, servo, plant ? plant : ideal);
   Rig rig = build_rig(scene, law);
   const ControlLaw continuous = rig.sampled ? ControlLaw{} : law;
-  Link link;
-  take_link(rig, link);
+  const Link link = link_of<Link>(rig);
   RigMode mode;
   for (int i = 0; i < rig.servos; ++i) mode.driver[i].rings = rig.servo[i].rings;
   for (int i = 0; i < 2; ++i) {
@@ -214,8 +215,6 @@ AssembledRig<integrates, Link> assemble_rig(const Scenario& scene, SignalPair re
 
 template AssembledRig<false> assemble_rig<false>(const Scenario&, SignalPair, const PlantOf&);
 template AssembledRig<true> assemble_rig<true>(const Scenario&, SignalPair, const PlantOf&);
-template AssembledRig<false, Linkages> assemble_rig<false, Linkages>(const Scenario&, SignalPair,
-                                                                     const PlantOf&);
 template AssembledRig<true, Linkages> assemble_rig<true, Linkages>(const Scenario&, SignalPair,
                                                                    const PlantOf&);
 template AssembledRig<true, ThreeServos> assemble_rig<true, ThreeServos>(const Scenario&,

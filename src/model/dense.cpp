@@ -49,12 +49,9 @@ VectorXd Elimination::solve(const VectorXd& b) const {
   return factors_->solve(b);
 }
 
-SingularValues singular_values(const MatrixXd& a, unsigned wanted) {
-  const Eigen::JacobiSVD<MatrixXd> svd(a, wanted);
-  SingularValues result{svd.singularValues(), {}, {}};
-  if (svd.computeU()) result.u = svd.matrixU();
-  if (svd.computeV()) result.v = svd.matrixV();
-  return result;
+SingularValues singular_values(const MatrixXd& a) {
+  const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
 }
 
 MatrixXd exponential(const MatrixXd& a) {

@@ -43,13 +43,12 @@ class Elimination {
   std::shared_ptr<const Eigen::PartialPivLU<Eigen::MatrixXd>> factors_;
 };
 
-// a = u diag(values) v^T, with the values in descending order. `wanted`: Eigen's flags, such as
-// Eigen::ComputeFullV; a matrix that is not wanted is empty.
+// a = u diag(values) v^T, with the values in descending order, and as many columns in u and v.
 struct SingularValues {
   Eigen::VectorXd values;
   Eigen::MatrixXd u, v;
 };
-[[nodiscard]] SingularValues singular_values(const Eigen::MatrixXd& a, unsigned wanted);
+[[nodiscard]] SingularValues singular_values(const Eigen::MatrixXd& a);
 
 // e^a of a square matrix.
 [[nodiscard]] Eigen::MatrixXd exponential(const Eigen::MatrixXd& a);

@@ -72,26 +72,17 @@ std::string ball_note(const Scenario& scene, Shape shape) {
 std::string gimbal_note(const Scenario& scene) {
   if (scenario::moved_by_torques(scene)) {
     const std::string states =
-        "angles and rates are states: torques move plate, ring and ball, (M45) ";
-    if (!scene.controller) return states + "to (M47), given functions of time";
-    switch (scene.controller->drives) {
-      case Drives::torque:
-        return states + "to (M47), the controller's";
-      case Drives::voltage:
-        return states + "to (M47), of motors under the controller's voltages";
-      case Drives::angle:
-      case Drives::acceleration:
-      case Drives::legs:
-        break;
-    }
-    return states + "to (M47), of motors whose position loops follow the controller's angles";
+        "angles and rates are states: torques move plate, ring and ball, (M45) to (M47), ";
+    if (!scene.controller) return states + "given functions of time";
+    const Drives drives = scene.controller->drives;
+    if (drives == Drives::torque) return states + "the controller's";
+    if (drives == Drives::voltage) return states + "of motors under the controller's voltages";
+    return states + "of motors whose position loops follow the controller's angles";
   }
   if (!scene.controller) return "no gimbal states: the angles are given functions of time";
   if (scene.controller->drives == Drives::acceleration) {
-    return needs_rig(scene)
-               ? "angles and rates are states: the controller drives their accelerations"
-               : "angles and rates are states: the controller drives their "
-                 "accelerations, equation (31)";
+    return std::string("angles and rates are states: the controller drives their accelerations") +
+           (needs_rig(scene) ? "" : ", equation (31)");
   }
   const auto kind = [&](std::size_t axis) -> std::string {
     const Servo& servo = scene.gimbal.servo_of(axis);
@@ -135,27 +126,24 @@ std::string speed_of(const Servo& servo) {
          short_number(servo.damping);
 }
 
+std::string servo_note(const Servo& servo) {
+  const std::string limits = limits_of(servo);
+  return speed_of(servo) + (limits.empty() ? "" : ", " + limits);
+}
+
 std::string limits_note(const Gimbal& gimbal) {
   if (gimbal.three_servos && gimbal.three_servos->legs) {
     const auto& legs = *gimbal.three_servos->legs;
     std::string text = limits_of(*gimbal.servo);
     for (std::size_t i = 0; i < 3; ++i) {
       if (!legs[i].servo) continue;
-      const std::string limits = limits_of(*legs[i].servo);
       text += (text.empty() ? "leg " : "; leg ") + std::to_string(i + 1) + ": " +
-              speed_of(*legs[i].servo) + (limits.empty() ? "" : ", " + limits);
+              servo_note(*legs[i].servo);
     }
     return text;
   }
   if (!gimbal.theta_servo) return limits_of(*gimbal.servo);
-  std::string text;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Servo& servo = gimbal.servo_of(i);
-    const std::string limits = limits_of(servo);
-    text +=
-        (i == 0 ? "phi: " : "; theta: ") + speed_of(servo) + (limits.empty() ? "" : ", " + limits);
-  }
-  return text;
+  return "phi: " + servo_note(gimbal.servo_of(0)) + "; theta: " + servo_note(gimbal.servo_of(1));
 }
 
 // The plate's tilt when the controller commands it level.
@@ -419,20 +407,14 @@ std::string mounting_note(const Scenario& scene) {
 
 std::string events_note(const Scenario& scene) {
   List list;
-  if (scene.gimbal.loses_steps()) {
-    list.add(scene.events.steps_lost == OnEvent::stop ? "steps_lost (stops the run)"
-                                                      : "steps_lost (is noted)");
-  }
-  if (scene.events.rest) {
-    list.add(*scene.events.rest == OnEvent::stop ? "rest (stops the run)" : "rest (is noted)");
-  }
-  if (scene.events.stick) {
-    list.add(*scene.events.stick == OnEvent::stop ? "stick (stops the run)" : "stick (is noted)");
-  }
-  for (const Monitor& monitor : event_monitors(scene).monitors) {
-    list.add(std::string(monitor.name()) +
-             (monitor.action == OnEvent::stop ? " (stops the run)" : " (is noted)"));
-  }
+  const auto add = [&list](const std::string& name, OnEvent action) {
+    list.add(name + (action == OnEvent::stop ? " (stops the run)" : " (is noted)"));
+  };
+  const Events& events = scene.events;
+  if (scene.gimbal.loses_steps()) add("steps_lost", events.steps_lost.value_or(OnEvent::note));
+  if (events.rest) add("rest", *events.rest);
+  if (events.stick) add("stick", *events.stick);
+  for (const Monitor& monitor : event_monitors(scene).monitors) add(monitor.name(), monitor.action);
   return list.text();
 }
 

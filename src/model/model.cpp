@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <new>
 
@@ -95,36 +96,27 @@ std::vector<std::string> Model::state_names() const {
       [this](const auto& any) -> std::vector<std::string> {
         using Any = std::decay_t<decltype(any)>;
         std::vector<std::string> names(Any::Layout::names.begin(), Any::Layout::names.end());
-        if constexpr (is_coupled_loop<Any>) {
-          std::vector<std::string> loop{"x", "y", "vx", "vy", "r*spin"};
-          if constexpr (Any::servos == 3) {
-            for (const char* suffix : {"", "_rate"}) {
-              for (const char* angle : {"servo_phi", "servo_theta", "servo_third"}) {
-                loop.push_back(std::string(angle) + suffix);
-              }
-            }
-          } else {
-            const bool own = rig && !rig->mechanism.none();  // servo angles, not the plane's
-            for (const char* state : {"phi", "theta", "phi_rate", "theta_rate"}) {
-              loop.push_back(std::string(own ? "servo_" : "") + state);
-            }
-          }
-          loop.insert(loop.end(),
-                      {"phi_command_integral", "theta_command_integral", "phi_integral",
-                       "theta_integral", "slip_x", "slip_y", "energy_lost", "motor_work"});
-          return loop;
-        } else if constexpr (is_coupled<Any>) {
-          return {"x", "y", "vx", "vy", "r*spin", "slip_x", "slip_y", "energy_lost", "motor_work"};
-        }
-        if constexpr (Any::size > Any::Layout::size) {
+        const auto add = [&](std::initializer_list<const char*> more) {
+          names.insert(names.end(), more.begin(), more.end());
+        };
+        constexpr bool coupled = is_coupled<Any>, loop = is_coupled_loop<Any>;
+        if constexpr (loop || (!coupled && Any::size > Any::Layout::size)) {
+          // Servo angles, or the plane's.
+          const char* const whose = loop && rig && !rig->mechanism.none() ? "servo_" : "";
           for (const char* suffix : {"", "_rate"}) {
-            if (phi_moves(Any::moves)) names.push_back(std::string("phi") + suffix);
-            if (theta_moves(Any::moves)) names.push_back(std::string("theta") + suffix);
+            const auto angle = [&](const char* axis) {
+              names.push_back(std::string(whose) + axis + suffix);
+            };
+            if (phi_moves(Any::moves)) angle("phi");
+            if (theta_moves(Any::moves)) angle("theta");
+            if constexpr (requires { requires Any::servos == 3; }) angle("third");
           }
         }
-        if constexpr (Any::size == RigLoop<true>::size) {
-          names.insert(names.end(), {"phi_command_integral", "theta_command_integral"});
+        if (loop || Any::size == RigLoop<true>::size) {
+          add({"phi_command_integral", "theta_command_integral"});
         }
+        if (loop) add({"phi_integral", "theta_integral"});
+        if (coupled) add({"slip_x", "slip_y", "energy_lost", "motor_work"});
         return names;
       },
       system);

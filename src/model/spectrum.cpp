@@ -153,26 +153,17 @@ std::vector<int> others_than(const std::vector<int>& states, Eigen::Index count)
 
 LinearLoop sampled_loop(const Model& model) {
   const LinearPoint home = home_point();
-  const PlantDerivatives plant = plant_derivatives(model, home, Heave::left_out);
-  LinearLoop loop;
-  std::vector<int> states;
-  const SampledCycle cycle(cycle_parts(plant, *model.rig, home, states));
+  const SampledCycle cycle(plant_derivatives(model, home, Heave::left_out), *model.rig, home,
+                           SampledCycle::Frames::as_they_are);
   const SampledMap map = cycle.map();
-  const auto names = state_signals(plant.places, "");
-  for (const int i : states) loop.states.push_back(names[static_cast<std::size_t>(i)]);
-  std::ranges::move(cycle.memory(""), std::back_inserter(loop.states));
-  loop.a = map.a;
-  loop.law = map.law;
-  return loop;
+  return {cycle.signals(""), map.a, map.law};
 }
 
 LinearLoop continuous_loop(const Model& model) {
   const LoopDerivatives of = loop_derivatives(model, home_point());
   const std::vector<int> states = loop_states(of, moving_axes(model));
-  const auto names = state_signals(of.places, "");
-  LinearLoop loop{{}, of.of_state(states, states), of.command_of_state(Eigen::all, states)};
-  for (const int i : states) loop.states.push_back(names[static_cast<std::size_t>(i)]);
-  return loop;
+  return {state_signals(of.places, "", states), of.of_state(states, states),
+          of.command_of_state(Eigen::all, states)};
 }
 
 bool is_sampled(const Model& model) {
@@ -246,23 +237,16 @@ Eigenvalues sampled_poles(const Model& model) {
   return poles_of_period(without_idle(model, sampled_loop(model)));
 }
 
-int growing(const Eigenvalues& poles) {
-  return static_cast<int>(
-      std::ranges::count_if(poles, [](const auto& pole) { return pole.real() > 0; }));
+int growing(const Eigenvalues& poles, bool by_period) {
+  return static_cast<int>(std::ranges::count_if(poles, [=](const auto& pole) {
+    return by_period ? std::abs(pole) > 1 + 4 * epsilon : pole.real() > 0;
+  }));
 }
 
-bool stable(const Eigenvalues& poles) {
-  return std::ranges::all_of(poles, [](const auto& pole) { return pole.real() < 0; });
-}
-
-int growing_by_period(const Eigenvalues& poles) {
-  return static_cast<int>(std::ranges::count_if(
-      poles, [](const auto& pole) { return std::abs(pole) > 1 + 4 * epsilon; }));
-}
-
-bool stable_by_period(const Eigenvalues& poles) {
-  return std::ranges::all_of(poles,
-                             [](const auto& pole) { return std::abs(pole) < 1 - 4 * epsilon; });
+bool stable(const Eigenvalues& poles, bool by_period) {
+  return std::ranges::all_of(poles, [=](const auto& pole) {
+    return by_period ? std::abs(pole) < 1 - 4 * epsilon : pole.real() < 0;
+  });
 }
 
 }  // namespace bbsim::model

@@ -58,10 +58,9 @@ struct LinearLoop {
 [[nodiscard]] Eigenvalues poles_of_period(const Eigen::MatrixXd& map);
 
 // Whether all poles lie inside the border of stability; a pole on it, up to rounding, does not.
-[[nodiscard]] bool stable(const Eigenvalues& poles);
-[[nodiscard]] bool stable_by_period(const Eigenvalues& poles);
+// `by_period`: of a map from period to period.
+[[nodiscard]] bool stable(const Eigenvalues& poles, bool by_period = false);
 // Number of poles beyond the border.
-[[nodiscard]] int growing(const Eigenvalues& poles);
-[[nodiscard]] int growing_by_period(const Eigenvalues& poles);
+[[nodiscard]] int growing(const Eigenvalues& poles, bool by_period = false);
 
 }  // namespace bbsim::model

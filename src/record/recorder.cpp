@@ -39,8 +39,7 @@ std::vector<Extremes::Query> most_and_least_loads() {
 }
 
 bool has_plate_inertia(const model::BallConstants& constants) {
-  return std::any_of(constants.plate_inertia.begin(), constants.plate_inertia.end(),
-                     [](double moment) { return moment > 0; });
+  return std::ranges::any_of(constants.body.plate, [](double moment) { return moment > 0; });
 }
 
 // Groups the measures by their windows.

@@ -30,10 +30,10 @@ class SystemEquation : public Equation {
 
   [[nodiscard]] int size() const override { return System::size; }
   void derivative(double t, const double* z, double* dz) const override {
-    system_.derivative(std::min(t, latest), z, dz);
+    model::derivative(system_, std::min(t, latest), z, dz);
   }
   void derivative(Quad t, const Quad* z, Quad* dz) const override {
-    system_.derivative(plain(t) > latest ? Quad(latest) : t, z, dz);
+    model::derivative(system_, plain(t) > latest ? Quad(latest) : t, z, dz);
   }
   [[nodiscard]] Eigen::MatrixXd jacobian(double t, const double* z) const override {
     Eigen::MatrixXd matrix(System::size, System::size);

@@ -290,8 +290,9 @@ solve::Derivative simpler_derivative(const model::Model& model) {
   return std::visit(
       [](const auto& system) -> solve::Derivative {
         if constexpr (requires { system.template with_equation<Equation>(); }) {
-          return [simpler = system.template with_equation<Equation>()](
-                     double t, const double* z, double* dz) { simpler.derivative(t, z, dz); };
+          return
+              [simpler = system.template with_equation<Equation>()](
+                  double t, const double* z, double* dz) { model::derivative(simpler, t, z, dz); };
         } else {
           throw InputError("verify: simpler models are compared over scenarios without switches");
         }

@@ -114,8 +114,8 @@ TEST_CASE("a planar system gives the full system's result") {
   const double z[4] = {0.03, -0.2, 0.1, -1.5};
   const double z_full[9] = {z[0], 0, z[1], 0, 0, z[2], 0, z[3], 0};
   double dz[4], dz_full[9];
-  small.derivative(0.7, z, dz);
-  full.derivative(0.7, z_full, dz_full);
+  model::derivative(small, 0.7, z, dz);
+  model::derivative(full, 0.7, z_full, dz_full);
   CHECK(dz[0] == dz_full[0]);
   CHECK(dz[1] == dz_full[2]);
   CHECK(dz[2] == dz_full[5]);
@@ -143,8 +143,8 @@ TEST_CASE("the Jacobian agrees with central differences") {
               std::copy_n(z, n, below);
               above[j] += h;
               below[j] -= h;
-              system.derivative(t, above, up);
-              system.derivative(t, below, down);
+              model::derivative(system, t, above, up);
+              model::derivative(system, t, below, down);
               for (int i = 0; i < n; ++i) {
                 const double size = std::abs(up[i]) + std::abs(exact(i, j)) + 1;
                 // 2 eps |f| / h and h^2 |f'''|, both about 1e-10 of the size of f.

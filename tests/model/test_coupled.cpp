@@ -75,8 +75,8 @@ TEST_CASE("without couples a ball rolls by the general form of equation (27)") {
     const auto plane = coupled.plane(phi, theta);
     auto cause = coupled.cause(plane, ball, p);
     for (int k = 0; k < 3; ++k) {
-      cause.omega_dot[k] += plane.phi_axis[k] * phi.acceleration;
-      cause.omega_dot[k] += plane.theta_axis[k] * theta.acceleration;
+      cause.omega_dot[k] += plane.axis[0][k] * phi.acceleration;
+      cause.omega_dot[k] += plane.axis[1][k] * theta.acceleration;
     }
     const auto answer = coupled.answer({}, {{0, 0}, {0, 0}}, ball, cause);
     const auto rates = model::general_rolling(scene).rates<double>(phi, theta, ball, r, g);
@@ -118,9 +118,9 @@ TEST_CASE("the Jacobian of a coupled scene agrees with differences") {
     const double step = 1e-5, kept = z[j];
     double up[n], down[n];
     z[j] = kept + step;
-    loop.derivative(0.3, z, up);
+    model::derivative(loop, 0.3, z, up);
     z[j] = kept - step;
-    loop.derivative(0.3, z, down);
+    model::derivative(loop, 0.3, z, down);
     z[j] = kept;
     for (int i = 0; i < n; ++i) {
       CAPTURE(i, j);

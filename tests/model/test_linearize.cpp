@@ -212,12 +212,12 @@ TEST_CASE("with a linkage A is the derivative of the system, also at rest away f
   const model::Model model = model::assemble(scene, false);
   const auto& system =
       std::get<model::CoupledLoop<model::SignalPair, model::Linkages>>(model.system);
-  double z[model::CoupledLoopLayout::states] = {};
+  double z[model::CoupledLayout<2>::states] = {};
   std::copy(at.state.begin(), at.state.end(), z);
-  double rates[model::CoupledLoopLayout::states];
-  system.derivative(0.0, z, rates);
+  double rates[model::CoupledLayout<2>::states];
+  model::derivative(system, 0.0, z, rates);
   for (int i = 0; i < 9; ++i) CHECK(std::abs(rates[i]) < 1e-10);  // it is at rest
-  constexpr int size = model::CoupledLoopLayout::states;
+  constexpr int size = model::CoupledLayout<2>::states;
   Eigen::Matrix<double, size, size> full;
   model::jacobian(model.system, 0.0, z, full.data());
   const std::vector<int> states{0, 1, 2, 3, 5, 6, 7, 8};
@@ -465,8 +465,9 @@ TEST_CASE("at an equilibrium everything rests, also under a push and the plate's
     const model::LinearPoint at = model::equilibrium(scene);
     const model::Model model = model::assemble(scene, false);
     std::vector<double> rates(model.size());
-    std::visit([&](const auto& system) { system.derivative(0.0, at.state.data(), rates.data()); },
-               model.system);
+    std::visit(
+        [&](const auto& system) { model::derivative(system, 0.0, at.state.data(), rates.data()); },
+        model.system);
     for (const double one : rates) CHECK(std::abs(one) < bound);
     if (scene.ball.push) CHECK(std::abs(at.state[5]) > 1e-4);
     if (i >= 3) continue;
@@ -640,7 +641,7 @@ TEST_CASE("B of torques and of three servos' commands agrees with differences") 
         } else {
           std::copy_n(command, 2, mode.command);
         }
-        loop.derivative(0.0, at.state.data(), (side > 0 ? more : less).data());
+        model::derivative(loop, 0.0, at.state.data(), (side > 0 ? more : less).data());
       }
       for (int i = 0; i < made.system.b.rows(); ++i) {
         const auto k = static_cast<std::size_t>(i);  // all states exist, in order

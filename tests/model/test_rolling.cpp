@@ -43,9 +43,9 @@ struct Motion {
 // x'', y'' and gamma'' of (27).
 std::array<double, 3> compact(const State& q, double r) {
   const Motion m(q, r);
-  return {x_acceleration<double>(m.phi, m.theta, m.ball, r, g),
-          y_acceleration<double>(m.phi, m.theta, m.ball, r, g),
-          u_acceleration<double>(m.phi, m.theta, m.ball, r) / r};
+  return {Equation27::x<double>(m.phi, m.theta, m.ball, r, g),
+          Equation27::y<double>(m.phi, m.theta, m.ball, r, g),
+          Equation27::u<double>(m.phi, m.theta, m.ball, r) / r};
 }
 
 std::array<double, 3> general(const GeneralRolling& rolling, const State& q, double r) {
@@ -132,17 +132,17 @@ TEST_CASE("omitting terms known to be zero does not change the rest") {
 
     const RollingState<double, double, double> on_x{b.x, 0, b.x_dot, 0, 0};
     const RollingState<double, Zero, Zero> only_x{b.x, {}, b.x_dot, {}, {}};
-    CHECK(x_acceleration<double>(m.phi, LockedAngle{}, only_x, r, g) ==
-          x_acceleration<double>(m.phi, level, on_x, r, g));
-    CHECK(y_acceleration<double>(m.phi, level, on_x, r, g) == 0);
-    CHECK(u_acceleration<double>(m.phi, level, on_x, r) == 0);
+    CHECK(Equation27::x<double>(m.phi, LockedAngle{}, only_x, r, g) ==
+          Equation27::x<double>(m.phi, level, on_x, r, g));
+    CHECK(Equation27::y<double>(m.phi, level, on_x, r, g) == 0);
+    CHECK(Equation27::u<double>(m.phi, level, on_x, r) == 0);
 
     const RollingState<double, double, double> on_y{0, b.y, 0, b.y_dot, 0};
     const RollingState<Zero, double, Zero> only_y{{}, b.y, {}, b.y_dot, {}};
-    CHECK(y_acceleration<double>(LockedAngle{}, m.theta, only_y, r, g) ==
-          y_acceleration<double>(level, m.theta, on_y, r, g));
-    CHECK(x_acceleration<double>(level, m.theta, on_y, r, g) == 0);
-    CHECK(u_acceleration<double>(level, m.theta, on_y, r) == 0);
+    CHECK(Equation27::y<double>(LockedAngle{}, m.theta, only_y, r, g) ==
+          Equation27::y<double>(level, m.theta, on_y, r, g));
+    CHECK(Equation27::x<double>(level, m.theta, on_y, r, g) == 0);
+    CHECK(Equation27::u<double>(level, m.theta, on_y, r) == 0);
   }
 }
 

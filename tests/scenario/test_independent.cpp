@@ -27,7 +27,7 @@ std::vector<double> traits(const Scenario& scenario) {
     numbers.insert(numbers.end(), {now.gimbal.phi, now.gimbal.theta_ddot, now.gimbal.phi_ddot,
                                    now.reference[0], now.reference[1], now.ball.gamma_dot});
     std::vector<double> dz(z.size());
-    std::visit([&](const auto& system) { system.derivative(t, z.data(), dz.data()); },
+    std::visit([&](const auto& system) { model::derivative(system, t, z.data(), dz.data()); },
                model.system);
     numbers.insert(numbers.end(), dz.begin(), dz.end());
   }

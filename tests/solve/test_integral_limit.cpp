@@ -81,7 +81,7 @@ std::vector<std::vector<double>> smoothed(const model::Model& model, const Outpu
       for (int s = 0; s < 4; ++s) {
         for (std::size_t i = 0; i < z.size(); ++i) stage[i] = z[i] + after[s] * h * dz[i] * (s > 0);
         smooth(model, system, t + after[s] * h, stage.data(), width);
-        system.derivative(t + after[s] * h, stage.data(), dz.data());
+        model::derivative(system, t + after[s] * h, stage.data(), dz.data());
         for (std::size_t i = 0; i < z.size(); ++i) sum[i] += weight[s] * h * dz[i];
       }
       z = sum;

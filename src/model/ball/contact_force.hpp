@@ -68,11 +68,11 @@ template <class Real, class Number, class Ball, class Scalar>
           2 * (omega.x * ball.y_dot - omega.y * ball.x_dot) + swung.z + turned.z + g * plane.up.z};
 }
 
-// The bodies that the motors turn, without the ball.
-struct Turned {
-  double inertia[3];            // of the plate about x, y and the normal, kg m^2
-  double imbalance;             // mass times height of its center, kg m
-  double with_phi, with_theta;  // moments of inertia of ring and rotors, kg m^2
+// The bodies that turn with the gimbal: the plate, the ring (with phi only), and the rotors.
+struct GimbalBody {
+  double plate[3] = {0, 0, 0};  // moments about the gimbal's center, along the plane's axes, kg m^2
+  double imbalance = 0;         // mass times height of its center along the normal, kg m
+  double ring = 0, rotor = 0;   // kg m^2
 };
 
 template <class Real>
@@ -92,10 +92,10 @@ template <class Real>
 template <class Real>
 [[nodiscard]] inline Torques<Real> plate_torques(const MovingPlane<Real>& plane,
                                                  const GimbalAngle<Real>& phi,
-                                                 const GimbalAngle<Real>& theta, const Turned& of,
-                                                 double g) {
+                                                 const GimbalAngle<Real>& theta,
+                                                 const GimbalBody& of, double g) {
   const auto by_inertia = [&of](const Vector3<Real>& a) {
-    return Vector3<Real>{of.inertia[0] * a.x, of.inertia[1] * a.y, of.inertia[2] * a.z};
+    return Vector3<Real>{of.plate[0] * a.x, of.plate[1] * a.y, of.plate[2] * a.z};
   };
   const Vector3<Real> steady = by_inertia(plane.omega_dot);
   const Vector3<Real> gyral = cross(plane.omega, by_inertia(plane.omega));
@@ -103,8 +103,8 @@ template <class Real>
   const Vector3<Real> moment{steady.x + gyral.x - weight * plane.up.y,
                              steady.y + gyral.y + weight * plane.up.x, steady.z + gyral.z};
   const Torques<Real> torques = about_axes(plane, moment);
-  return {torques.phi + of.with_phi * phi.acceleration,
-          torques.theta + of.with_theta * theta.acceleration};
+  return {torques.phi + (of.ring + of.rotor) * phi.acceleration,
+          torques.theta + of.rotor * theta.acceleration};
 }
 
 }  // namespace bbsim::model

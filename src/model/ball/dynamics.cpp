@@ -4,6 +4,7 @@
 #include "model/ball/dynamics.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "model/ball/rolling.hpp"
 
@@ -34,24 +35,17 @@ BallConstants constants_of(const Scenario& scene) {
   BallConstants constants{scene.ball.radius, scene.ball.mass, scene.gravity};
   constants.papers_rig = is_the_papers(scene);
   constants.rolling = general_rolling(scene);
-  if (scene.plate.inertia) constants.plate_inertia = *scene.plate.inertia;
-  constants.plate_imbalance = scene.plate.mass * scene.plate.centre_of_mass;
-  constants.ring_inertia = scene.gimbal.ring_inertia;
+  GimbalBody& body = constants.body;
+  if (scene.plate.inertia) std::ranges::copy(*scene.plate.inertia, body.plate);
+  body.imbalance = scene.plate.mass * scene.plate.centre_of_mass;
+  body.ring = scene.gimbal.ring_inertia;
   if (scene.gimbal.motor) {
-    constants.rotor_inertia = scene.gimbal.motor->rotor_inertia;
+    body.rotor = scene.gimbal.motor->rotor_inertia;
     if (const auto& dc = scene.gimbal.motor->dc) {
       constants.armature = {dc->resistance, dc->gear * dc->torque_constant};
     }
   }
   return constants;
-}
-
-Turned turned_by_motors(const BallConstants& constants) {
-  const auto& inertia = constants.plate_inertia;
-  return {{inertia[0], inertia[1], inertia[2]},
-          constants.plate_imbalance,
-          constants.ring_inertia + constants.rotor_inertia,
-          constants.rotor_inertia};
 }
 
 namespace {
@@ -90,7 +84,7 @@ struct Kinematics {
     const RollingState<double, double, double> state{ball.x, ball.y, ball.x_dot, ball.y_dot,
                                                      r * ball.gamma_dot};
     if (constants.papers_rig) {
-      return {x_acceleration<double>(p, t, state, r, g), y_acceleration<double>(p, t, state, r, g),
+      return {Equation27::x<double>(p, t, state, r, g), Equation27::y<double>(p, t, state, r, g),
               0};
     }
     const auto rates = constants.rolling.rates<double>(p, t, state, r, g);
@@ -104,17 +98,6 @@ struct Kinematics {
                                                  constants.rolling.height, constants.radius,
                                                  constants.gravity)) -
            push;
-  }
-
-  // The moment about the gimbal's center that carries the ball.
-  [[nodiscard]] Vector3d ball_moment(const Vector3d& force) const {
-    const Vector3d moment = contact.cross(force);
-    return coupled != nullptr ? Vector3d(moment + Vector3d(coupled->couple)) : moment;
-  }
-
-  // The motor torques for the plate, the ring and the rotors.
-  [[nodiscard]] Torques<double> of_plate() const {
-    return plate_torques(plane, phi, theta, turned_by_motors(constants), constants.gravity);
   }
 
   const BallConstants& constants;
@@ -149,7 +132,9 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
 
   Dynamics result;
   result.force = now.force();
-  const Vector3d moment = now.ball_moment(result.force);
+  // The moment about the gimbal's center that carries the ball.
+  Vector3d moment = now.contact.cross(result.force);
+  if (now.coupled != nullptr) moment += Vector3d(now.coupled->couple);
   result.torque_phi = now.phi_axis.dot(moment);
   result.torque_theta = now.theta_axis.dot(moment);
   result.kinetic_energy = m * centre_velocity.squaredNorm() / 2 +
@@ -157,15 +142,15 @@ Dynamics dynamics(const Sample& sample, const BallConstants& constants) {
   result.potential_energy = m * g * now.centre.dot(now.up);
 
   result.push_power = now.push.dot(centre_velocity);
-  const Torques<double> of_plate = now.of_plate();
+  const GimbalBody& body = constants.body;
+  const Torques<double> of_plate = plate_torques(now.plane, now.phi, now.theta, body, g);
   result.plate_torque_phi = of_plate.phi;
   result.plate_torque_theta = of_plate.theta;
-  const Vector3d inertia(constants.plate_inertia.data());
+  const Vector3d inertia(body.plate);
   const double phi_rate = now.gimbal.phi_dot, theta_rate = now.gimbal.theta_dot;
   result.gimbal_energy =
-      omega.dot(inertia.cwiseProduct(omega)) / 2 + constants.plate_imbalance * g * now.up.z() +
-      (constants.ring_inertia + constants.rotor_inertia) * phi_rate * phi_rate / 2 +
-      constants.rotor_inertia * theta_rate * theta_rate / 2;
+      omega.dot(inertia.cwiseProduct(omega)) / 2 + body.imbalance * g * now.up.z() +
+      (body.ring + body.rotor) * phi_rate * phi_rate / 2 + body.rotor * theta_rate * theta_rate / 2;
   if (now.coupled != nullptr) {
     result.coupled = *now.coupled;
     for (std::size_t i = 0; i < 2; ++i) {

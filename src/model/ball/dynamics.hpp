@@ -17,17 +17,13 @@ struct BallConstants {
   double radius = 0, mass = 1, gravity = 0;  // m, kg, m/s^2
   bool papers_rig = true;                    // use equation (27); otherwise `rolling`
   GeneralRolling rolling{};
-  std::array<double, 3> plate_inertia{0, 0, 0};  // about x, y and the normal, kg m^2
-  double plate_imbalance = 0;                    // mass times height of its center, kg m
-  double ring_inertia = 0, rotor_inertia = 0;    // kg m^2
+  GimbalBody body{};
   struct Armature {
     double resistance = 0, torque_by_current = 1;  // ohm; N m/A, through the gear
   } armature{};
 };
 
 [[nodiscard]] BallConstants constants_of(const Scenario& scene);
-
-[[nodiscard]] Turned turned_by_motors(const BallConstants& constants);
 
 struct Dynamics {
   // Force of the plane on the ball in the plane's frame, N; z is the normal force.

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "base/real.hpp"
+#include "model/ball/contact_force.hpp"
 #include "model/ball/general_rolling.hpp"
 #include "model/ball/rolling.hpp"
 
@@ -59,17 +60,10 @@ void direction(const DryDirection& of, const Real& x, const Real& y, Real (&into
   into[1] = of.moving * (y / size) + Real(still * of.along[1]);
 }
 
-// The bodies that turn with the gimbal: the plate, the ring (with phi only), and the rotors.
-struct GimbalBody {
-  double plate[3] = {0, 0, 0};  // moments about the gimbal's center, along the plane's axes, kg m^2
-  double imbalance = 0;         // mass times height of its center along the normal, kg m
-  double ring = 0, rotor = 0;   // kg m^2
-};
-
 // The plane's motion without the contributions of phi'' and theta''.
 template <class Real>
 struct PlaneMotion {
-  Real phi_axis[3], theta_axis[3], up[3];
+  Real axis[2][3], up[3];  // axes of phi and theta
   Real omega[3], omega_dot[3];
 };
 
@@ -107,10 +101,10 @@ struct CoupledBall {
     PlaneMotion<Real> plane;
     const Real both = phi.rate * theta.rate;
     for (int i = 0; i < 3; ++i) {
-      plane.phi_axis[i] = k.phi_axis[i];
-      plane.theta_axis[i] = Real(i < 2 ? k.theta_axis[i] : 0.0);
+      plane.axis[0][i] = k.phi_axis[i];
+      plane.axis[1][i] = Real(i < 2 ? k.theta_axis[i] : 0.0);
       plane.up[i] = k.up[i];
-      plane.omega[i] = plane.theta_axis[i] * theta.rate + plane.phi_axis[i] * phi.rate;
+      plane.omega[i] = plane.axis[1][i] * theta.rate + plane.axis[0][i] * phi.rate;
       plane.omega_dot[i] = k.phi_axis_slope[i] * both;
     }
     return plane;

@@ -31,11 +31,7 @@ using Varied = simd::WithGradient<most_states + 6>;
 // The gimbal's part of a loop: its law, its servos and its linkage.
 template <class Loop>
 auto& gimbal_of(Loop& loop) {
-  if constexpr (is_coupled_loop<std::remove_const_t<Loop>>) {
-    return loop.loop;
-  } else {
-    return loop;
-  }
+  return *rig_loop_of(loop);
 }
 template <class Loop>
 using LinkOf = std::decay_t<decltype(gimbal_of(std::declval<Loop&>()).link)>;
@@ -79,10 +75,7 @@ Loop placed(Loop loop, const Model& model, const LinearPoint& at) {
     if (at.home) gimbal.link = levelled(gimbal.link);
   }
   if constexpr (std::is_same_v<LinkOf<Loop>, ThreeServos>) {
-    for (int i = 0; i < 2 && at.home; ++i) {
-      gimbal.link.cos_offset[i] = 1;
-      gimbal.link.sin_offset[i] = gimbal.link.offset[i] = 0;
-    }
+    for (int i = 0; i < 2 && at.home; ++i) gimbal.link.set_offset(i, 0);
     for (ThreeServos::Leg& leg : gimbal.link.leg) {
       if (!at.home || std::atan2(leg.sin_zero, leg.cos_zero) == leg.home) continue;
       leg.cos_zero = std::cos(leg.home);
@@ -225,16 +218,6 @@ void rates_under(const Loop& loop, const std::array<Jet<Number>, 2>& reference, 
   }
 }
 
-// The law's command for an axis: to its servo, or to the plane if there are three servos.
-template <class Loop, class Axes>
-auto command_of(const Axes& axes, int i) {
-  if constexpr (Loop::servos == 2) {
-    return std::decay_t<decltype(gimbal_of(std::declval<Loop&>()))>::servo_command(axes, i);
-  } else {
-    return axes.command.value[i];
-  }
-}
-
 template <class Loop>
 StatePlaces places_of(const Loop& loop) {
   StatePlaces places{Loop::servos, Loop::Layout::integral, 0, false};
@@ -272,8 +255,9 @@ LoopDerivatives differentiate_loop(const Loop& loop, const LinearPoint& at) {
   vary_states<Loop>(at, z);
   const auto reference = varied(at.reference, n);
   rates_under(loop, reference, at.time, z, dz);
-  const auto axes = gimbal_of(loop).axes(reference, z);
-  const Varied commands[2] = {command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)};
+  const auto& gimbal = gimbal_of(loop);
+  const auto axes = gimbal.axes(reference, z);
+  const Varied commands[2] = {gimbal.shown(axes, 0), gimbal.shown(axes, 1)};
   return {places_of(loop), simd::gradients(dz, 0, n), simd::gradients(dz, n, 6),
           simd::gradients(commands, 0, n)};
 }
@@ -286,8 +270,8 @@ MatrixXd kick_of(const Loop& loop, const VectorXd& z) {
   for (int i = 0; i < servos; ++i) {
     VectorXd kicked = z;
     kicked.segment<servos>(rate) = Eigen::Matrix<double, servos, 1>::Unit(i);
-    const auto rates = gimbal.plane_rates(kicked.data());
-    const auto jump = gimbal.impulse(z.data(), rates[0], rates[1]);
+    const RigExtras plane = gimbal.plane(kicked.data());
+    const auto jump = gimbal.impulse(z.data(), plane.rate[0], plane.rate[1]);
     for (int j = 0; j < 3; ++j) kick(2 + j, i) = jump[static_cast<std::size_t>(j)];
     kick(rate + i, i) = 1;
   }
@@ -436,8 +420,15 @@ std::vector<int> moving_axes(const Model& model) {
   return {0, 1};
 }
 
-std::vector<LinearSignal> state_signals(const StatePlaces& places,
-                                        const std::string& command_unit) {
+std::vector<LinearSignal> signals_of(const std::vector<LinearSignal>& all,
+                                     const std::vector<int>& indices) {
+  std::vector<LinearSignal> signals;
+  for (const int i : indices) signals.push_back(all[static_cast<std::size_t>(i)]);
+  return signals;
+}
+
+std::vector<LinearSignal> state_signals(const StatePlaces& places, const std::string& command_unit,
+                                        const std::vector<int>& states) {
   std::vector<LinearSignal> signals{
       {"x", "m"}, {"y", "m"}, {"vx", "m/s"}, {"vy", "m/s"}, {spin_name, "m/s"}};
   const char* const three[] = {"servo_phi", "servo_theta", "servo_third"};
@@ -452,7 +443,7 @@ std::vector<LinearSignal> state_signals(const StatePlaces& places,
     signals.push_back({name, command_unit});
   }
   for (const char* name : {"phi_integral", "theta_integral"}) signals.push_back({name, "rad s"});
-  return signals;
+  return signals_of(signals, states);
 }
 
 namespace {
@@ -546,8 +537,9 @@ std::pair<Pair, Pair> commands_at(const Loop& loop, const Sensor* sensor, const 
   const VectorXd z = states_at<Loop>(at);
   std::array<Jet<double>, 2> reference = at.reference;
   see_by(sensor, z.data(), reference);
-  const auto axes = gimbal_of(loop).axes(reference, z.data());
-  return {{command_of<Loop>(axes, 0), command_of<Loop>(axes, 1)},
+  const auto& gimbal = gimbal_of(loop);
+  const auto axes = gimbal.axes(reference, z.data());
+  return {{gimbal.shown(axes, 0), gimbal.shown(axes, 1)},
           {axes.command.value[0], axes.command.value[1]}};
 }
 

@@ -112,9 +112,13 @@ enum class SpinStands { after_velocities, last };
                                            const std::vector<int>& axes);
 // The axes that move; symmetry may leave one out.
 [[nodiscard]] std::vector<int> moving_axes(const Model& model);
-// Names and units of all states, in order.
+// Names and units of these states.
 [[nodiscard]] std::vector<LinearSignal> state_signals(const StatePlaces& places,
-                                                      const std::string& command_unit);
+                                                      const std::string& command_unit,
+                                                      const std::vector<int>& states);
+// The signals with these indices.
+[[nodiscard]] std::vector<LinearSignal> signals_of(const std::vector<LinearSignal>& all,
+                                                   const std::vector<int>& indices);
 
 // The plant for LQR gains: about home, with the states x, y, x', y', phi, theta, phi', theta', then
 // a motor's two integrals.

@@ -17,31 +17,37 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
-using Real = std::function<double(double)>;
 
 constexpr double pi = std::numbers::pi;
 
-// A function in a fast version, a careful one with a bound on its rounding, and its values at the
-// frequencies.
+// A real function of a response, with a bound on its rounding.
 struct Rounded {
-  struct Value {
-    double value, rounding;
-    [[nodiscard]] bool certain() const { return std::abs(value) > rounding; }
-  };
-  Real value;
-  std::function<Value(double)> careful;
-  std::vector<double> known;
+  double value, rounding;
+  [[nodiscard]] bool certain() const { return std::abs(value) > rounding; }
 };
+using Measure = Rounded (*)(const FrequencyResponse::Careful&);
 
-// Zeros of f that show in its values at the points or in dips between them, without those that
-// rounding makes.
-std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points) {
-  std::vector<double> at, values;
+Rounded imaginary_part(const FrequencyResponse::Careful& of) {
+  return {of.value.imag(), of.rounding};
+}
+
+Rounded log_of_size(const FrequencyResponse::Careful& of) {
+  const double size = std::abs(of.value);
+  return {std::log(size), of.rounding / size};
+}
+
+// Zeros of a measure of the loop that show in its values at the points or in dips between them,
+// without those that rounding makes. `responses`: the loop's at the points.
+std::vector<double> zeros_of(Measure f, const FrequencyResponse& loop,
+                             const std::vector<double>& points,
+                             const std::vector<Complex>& responses) {
+  const auto careful = [&](double w) { return f(loop.carefully_at(w, 0, 0)); };
+  std::vector<double> at, values, known;
   const auto add = [&](double w, double value) {
     at.push_back(w);
     values.push_back(value);
   };
-  const std::vector<double>& known = f.known;
+  for (const Complex& response : responses) known.push_back(f({response, 0}).value);
   for (std::size_t i = 0; i < points.size(); ++i) {
     add(points[i], known[i]);
     if (i == 0 || i + 1 == points.size()) continue;
@@ -53,8 +59,9 @@ std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points
     const double sign = known[i] < 0 ? 1 : -1;
     const auto at_point = [&](std::size_t k) { return Peak{points[k], sign * known[k]}; };
     const Peak top = climb(within(at_point(i - 1), at_point(i), at_point(i + 1)),
-                           good_place * (points[i + 1] - points[i - 1]),
-                           [&](double w) { return sign * f.value(w); });
+                           good_place * (points[i + 1] - points[i - 1]), [&](double w) {
+                             return sign * f({loop.at(w, 0, 0), 0}).value;
+                           });
     const double lowest = top.at, value = sign * top.value;
     if (lowest == points[i] || (value < 0) == (known[i] < 0)) continue;
     add(lowest, value);
@@ -68,13 +75,13 @@ std::vector<double> zeros_of(const Rounded& f, const std::vector<double>& points
     if ((values[i] < 0) == (values[i + 1] < 0)) continue;
     // Bracket it between the nearest points before and after it whose signs are certain.
     std::size_t low = i, high = i + 1;
-    Rounded::Value at_low = f.careful(at[low]), at_high = f.careful(at[high]);
-    while (low > 0 && !at_low.certain()) at_low = f.careful(at[--low]);
-    while (high + 1 < at.size() && !at_high.certain()) at_high = f.careful(at[++high]);
+    Rounded at_low = careful(at[low]), at_high = careful(at[high]);
+    while (low > 0 && !at_low.certain()) at_low = careful(at[--low]);
+    while (high + 1 < at.size() && !at_high.certain()) at_high = careful(at[++high]);
     i = high - 1;
     if (!at_low.certain() || !at_high.certain()) continue;
     if ((at_low.value < 0) == (at_high.value < 0)) continue;
-    zeros.push_back(zero_between(at[low], at[high], [&](double w) { return f.careful(w).value; }));
+    zeros.push_back(zero_between(at[low], at[high], [&](double w) { return careful(w).value; }));
   }
   return zeros;
 }
@@ -114,10 +121,8 @@ FrequencyResponse::FrequencyResponse(const Eigen::MatrixXd& a, const Eigen::Matr
     : a_(a), b_(b), c_(c), d_(d), period_(period) {
   Eigen::VectorXd scale;
   a_ = balanced(a, &scale);
-  for (Index i = 0; i < a.rows(); ++i) {
-    b_.row(i) /= scale[i];
-    c_.col(i) *= scale[i];
-  }
+  b_.array().colwise() /= scale.array();
+  c_.array().rowwise() *= scale.transpose().array();
   balanced_a_ = a_;
   balanced_b_ = b_;
   balanced_c_ = c_;
@@ -237,14 +242,7 @@ void add_gains(Margins& margins, const FrequencyResponse& open_loop,
       margins.reduction_at = w;
     }
   };
-  Rounded imaginary{[&](double w) { return open_loop.at(w, 0, 0).imag(); },
-                    [&](double w) -> Rounded::Value {
-                      const FrequencyResponse::Careful l = loop(w);
-                      return {l.value.imag(), l.rounding};
-                    },
-                    {}};
-  for (const Complex& l : responses) imaginary.known.push_back(l.imag());
-  for (const double w : zeros_of(imaginary, frequencies)) {
+  for (const double w : zeros_of(imaginary_part, open_loop, frequencies, responses)) {
     if (w < slowest) continue;
     const Complex l = loop(w).value;
     // The imaginary part also changes sign at a pole on the axis.
@@ -266,16 +264,8 @@ void add_gains(Margins& margins, const FrequencyResponse& open_loop,
 // Adds margins of phase and delay, from the size of the response.
 void add_phases(Margins& margins, const FrequencyResponse& open_loop,
                 const std::vector<double>& frequencies, const std::vector<Complex>& responses) {
-  const auto loop = [&](double w) { return open_loop.carefully_at(w, 0, 0); };
-  Rounded size{[&](double w) { return std::log(std::abs(open_loop.at(w, 0, 0))); },
-               [&](double w) -> Rounded::Value {
-                 const FrequencyResponse::Careful l = loop(w);
-                 return {std::log(std::abs(l.value)), l.rounding / std::abs(l.value)};
-               },
-               {}};
-  for (const Complex& l : responses) size.known.push_back(std::log(std::abs(l)));
-  for (const double w : zeros_of(size, frequencies)) {
-    double phase = std::arg(loop(w).value) + pi;  // 0 to 2 pi
+  for (const double w : zeros_of(log_of_size, open_loop, frequencies, responses)) {
+    double phase = std::arg(open_loop.carefully_at(w, 0, 0).value) + pi;  // 0 to 2 pi
     const double delay = phase / w;
     if (phase > pi) phase -= 2 * pi;
     if (std::abs(phase) < std::abs(margins.phase)) {
@@ -306,7 +296,7 @@ double bandwidth_of(const std::function<Complex(double)>& closed_loop,
                     const std::vector<double>& frequencies) {
   const double border = std::abs(closed_loop(0)) / std::numbers::sqrt2;
   if (!std::isfinite(border) || border == 0) return Margins::none;
-  const Real above = [&](double w) { return std::abs(closed_loop(w)) - border; };
+  const auto above = [&](double w) { return std::abs(closed_loop(w)) - border; };
   double last = 0;
   for (const double w : frequencies) {
     if (above(w) < 0) return zero_between(last, w, above);

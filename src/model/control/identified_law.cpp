@@ -37,7 +37,7 @@ double largest_number(const PulseResponse& response) {
 std::optional<LinearSystem> law_of(const PulseResponse& response, double noise) {
   const Index blocks = (static_cast<Index>(response.size()) - 1) / 2;
   const MatrixXd now = hankel(response, 1, blocks), next = hankel(response, 2, blocks);
-  const SingularValues svd = singular_values(now, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const SingularValues svd = singular_values(now);
   const Eigen::VectorXd& sizes = svd.values;
   // Noise alone gives singular values up to its size times the larger dimension.
   const double least =

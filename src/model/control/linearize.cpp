@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "model/control/sample_times.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/control/transmission_zeros.hpp"
 #include "model/dense.hpp"
@@ -24,21 +23,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const char* coordinate(int axis) {
-  return axis == 0 ? "x" : "y";
-}
-
-const char* angle_name(int axis) {
-  return axis == 0 ? "phi" : "theta";
-}
-
-std::vector<LinearSignal> signals_of(const std::vector<LinearSignal>& all,
-                                     const std::vector<int>& states) {
-  std::vector<LinearSignal> signals;
-  signals.reserve(states.size());
-  for (const int i : states) signals.push_back(all[static_cast<std::size_t>(i)]);
-  return signals;
-}
+// Of both axes.
+constexpr const char *coordinate[] = {"x", "y"}, *angle_name[] = {"phi", "theta"};
 
 std::string command_unit(const Scenario& scene) {
   if (scene.gimbal.torque) return "N m";
@@ -52,14 +38,14 @@ std::vector<LinearSignal> signals_of_commands(const Scenario& scene, const std::
     const char* const suffix = scene.controller      ? "_command"
                                : scene.gimbal.torque ? "_torque"
                                                      : "_acceleration";
-    signals.push_back({std::string(angle_name(axis)) + suffix, command_unit(scene)});
+    signals.push_back({std::string(angle_name[axis]) + suffix, command_unit(scene)});
   }
   return signals;
 }
 
 std::vector<LinearSignal> signals_of_positions(const std::vector<int>& axes, const char* suffix) {
   std::vector<LinearSignal> signals;
-  for (const int axis : axes) signals.push_back({std::string(coordinate(axis)) + suffix, "m"});
+  for (const int axis : axes) signals.push_back({std::string(coordinate[axis]) + suffix, "m"});
   return signals;
 }
 
@@ -74,7 +60,7 @@ std::vector<int> reference_inputs(const MatrixXd& of_reference, const std::vecto
     if (order > 0 && of_reference.middleCols(2 * order, 2).isZero(0)) continue;
     for (const int axis : axes) {
       columns.push_back(2 * order + axis);
-      signals.push_back({std::string(coordinate(axis)) + suffixes[order], units[order]});
+      signals.push_back({std::string(coordinate[axis]) + suffixes[order], units[order]});
     }
   }
   return columns;
@@ -117,7 +103,7 @@ Linearization plant_about(const Scenario& scene, const Model& model, const Linea
       linear_states(plant.places, plant.of_state, axes, SpinStands::after_velocities);
   Linearization linearization;
   LinearSystem& system = linearization.system;
-  system = system_of(signals_of(state_signals(plant.places, command_unit(scene)), states),
+  system = system_of(state_signals(plant.places, command_unit(scene), states),
                      signals_of_commands(scene, axes), axes, plant.of_state(states, states),
                      plant.of_command(states, axes));
   linearization.poles = sorted_eigenvalues(system.a);
@@ -176,7 +162,7 @@ PlainLoop plain_loop(Linearization& linearization, double slowest, std::optional
   plain.poles = plain.states.size() == system.states.size() ? linearization.poles
                 : system.period                             ? poles_of_period(plain.a)
                                                             : sorted_eigenvalues(plain.a);
-  linearization.stable = system.period ? stable_by_period(plain.poles) : stable(plain.poles);
+  linearization.stable = stable(plain.poles, system.period.has_value());
   return plain;
 }
 
@@ -200,7 +186,7 @@ void add_bandwidths(Linearization& linearization, const PlainLoop& plain,
     };
     const double whole = width(columns);
     linearization.bandwidths.push_back(
-        {coordinate(axis), whole, fed_back.size() == columns.size() ? whole : width(fed_back)});
+        {coordinate[axis], whole, fed_back.size() == columns.size() ? whole : width(fed_back)});
   }
 }
 
@@ -211,7 +197,7 @@ void add_margins(Linearization& linearization, const PlainLoop& plain, int axis,
   const LinearSystem& system = linearization.system;
   const double period = system.period.value_or(0);
   const std::vector<int>& of = plain.states;
-  const std::string command = std::string(angle_name(axis)) + "_command";
+  const std::string command = std::string(angle_name[axis]) + "_command";
   LinearSystem open{
       signals_of(system.states, of), {{command, unit}}, {{command, unit}}, a(of, of), b(of), -c(of),
       MatrixXd::Zero(1, 1),          system.period};
@@ -270,9 +256,8 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
   const std::vector<int> columns = reference_inputs(loop.of_reference, axes, inputs);
   Linearization linearization;
   LinearSystem& system = linearization.system;
-  system = system_of(signals_of(state_signals(loop.places, command_unit(scene)), states),
-                     std::move(inputs), axes, loop.of_state(states, states),
-                     loop.of_reference(states, columns));
+  system = system_of(state_signals(loop.places, command_unit(scene), states), std::move(inputs),
+                     axes, loop.of_state(states, states), loop.of_reference(states, columns));
   linearization.poles = sorted_eigenvalues(system.a);
   if (parts.zeros) {
     linearization.zeros =
@@ -293,36 +278,17 @@ Linearization continuous_loop_about(const Scenario& scene, const Model& model,
   return linearization;
 }
 
-// The model from sample to sample: the plant, a cycle of one sample, and the states' names.
-struct SampledModel {
-  PlantDerivatives plant;
-  SampledCycle cycle;
-  std::vector<LinearSignal> signals;
-};
-
-SampledModel sampled_about(const Scenario& scene, const Model& model, const LinearPoint& at) {
-  PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
-  std::vector<int> states;
-  CycleParts parts = cycle_parts(plant, *model.rig, at, states);
-  // There is one system only if all samples see frames of the same age.
-  if (common_cycle(parts.sampling, parts.sensor).samples > 1) parts.sensor.period.reset();
-  SampledCycle cycle(std::move(parts));
-  const std::string unit = command_unit(scene);
-  auto signals = signals_of(state_signals(plant.places, unit), states);
-  std::ranges::move(cycle.memory(unit), std::back_inserter(signals));
-  return {std::move(plant), std::move(cycle), std::move(signals)};
-}
-
 Linearization sampled_loop_about(const Scenario& scene, const Model& model, const LinearPoint& at,
                                  const LoopParts& parts) {
   const std::vector<int> axes{0, 1};
-  const auto [plant, cycle, signals] = sampled_about(scene, model, at);
+  const PlantDerivatives plant = plant_derivatives(model, at, heave_of(scene, at));
+  const SampledCycle cycle(plant, *model.rig, at, SampledCycle::Frames::of_equal_age);
   const SampledMap closed = cycle.map();
   std::vector<LinearSignal> inputs;
   const std::vector<int> columns = reference_inputs(closed.of_reference, axes, inputs);
   Linearization linearization;
   LinearSystem& system = linearization.system;
-  system = system_of(signals, std::move(inputs), axes, closed.a,
+  system = system_of(cycle.signals(command_unit(scene)), std::move(inputs), axes, closed.a,
                      closed.of_reference(Eigen::all, columns));
   system.period = scene.controller->sampling->period;
   linearization.poles = poles_of_period(system.a);
@@ -350,7 +316,8 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
         "of "
         "the sampled plant; allowed: plant or loop");
   }
-  const auto [plant, cycle, signals] = sampled_about(scene, model, at);
+  const SampledCycle cycle(plant_derivatives(model, at, heave_of(scene, at)), *model.rig, at,
+                           SampledCycle::Frames::of_equal_age);
   const int n = cycle.size(), first = cycle.controller_at();
   // The controller's memory is not part of the plant.
   std::vector<int> kept;
@@ -360,7 +327,7 @@ Linearization sampled_plant_about(const Scenario& scene, const Model& model,
   const SampledMap open = cycle.map(true, true);
   Linearization linearization;
   LinearSystem& system = linearization.system;
-  system = {signals_of(signals, kept),
+  system = {signals_of(cycle.signals(command_unit(scene)), kept),
             signals_of_commands(scene, {0, 1}),
             signals_of_positions({0, 1}, "_measured"),
             open.a(kept, kept),
@@ -453,16 +420,9 @@ Linearization linearize_as(const Scenario& scene, const Model& model, LinearKind
   return plant_about(scene, model, at);
 }
 
-// Symmetry makes -0 of 0.
-MatrixXd with_plain_zeros(const MatrixXd& matrix) {
-  return matrix.unaryExpr([](double value) { return value == 0 ? 0.0 : value; });
-}
-
+// Symmetry makes -0 of 0, and -0 + 0 is 0.
 void make_zeros_plain(Eigenvalues& values) {
-  for (auto& value : values) {
-    if (value.real() == 0) value.real(0);
-    if (value.imag() == 0) value.imag(0);
-  }
+  for (auto& value : values) value = {value.real() + 0.0, value.imag() + 0.0};
 }
 
 }  // namespace
@@ -474,9 +434,7 @@ Linearization linearize(const Scenario& scene, const Model& model, LinearKind ki
   std::vector<LinearSystem*> all{&linearization.system};
   for (LoopMargins& loop : linearization.margins) all.push_back(&loop.open);
   for (LinearSystem* const one : all) {
-    for (MatrixXd* const matrix : {&one->a, &one->b, &one->c, &one->d}) {
-      *matrix = with_plain_zeros(*matrix);
-    }
+    for (MatrixXd* const matrix : {&one->a, &one->b, &one->c, &one->d}) matrix->array() += 0.0;
   }
   make_zeros_plain(linearization.poles);
   make_zeros_plain(linearization.zeros);

@@ -52,7 +52,7 @@ const Eigenvalues& LoopAnalysis::poles() {
 }
 
 bool LoopAnalysis::is_stable() {
-  return sampled() ? stable_by_period(poles()) : stable(poles());
+  return stable(poles(), sampled());
 }
 
 LoopAnalysis::Value LoopAnalysis::pole_value(Kind kind) {

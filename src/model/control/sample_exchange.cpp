@@ -38,7 +38,7 @@ void SampleExchange::skip_past() {
 void SampleExchange::go_on_exposing() {
   if (!frames_) return go_on(expose_);
   ++expose_.number;
-  expose_.next = frame_time();
+  expose_.next = expose_.number * *frames_ + expose_.shift;
 }
 
 void SampleExchange::expose(double x, double y, bool firm) {

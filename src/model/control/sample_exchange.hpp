@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -117,16 +118,14 @@ class SampleExchange {
     while (!seen_.empty() && seen_.front().arrives <= now) frame_ = seen_.pop().what();
     return frame_;
   }
-  void end_sample(double phi, double theta) { commands_.push() = {phi, theta}; }
+  // The commands for phi and theta, or for three servos.
+  void end_sample(const std::array<double, most_servos>& commands) { commands_.push() = commands; }
   [[nodiscard]] bool commands_by(double now) const { return apply_.next <= now; }
-  [[nodiscard]] Pair take_command() {
+  [[nodiscard]] std::array<double, most_servos> take_command() {
     go_on(apply_);
     if (!even_) forget_times();
     return commands_.pop();
   }
-  // With three servos, a third command accompanies each pair.
-  void push_third(double command) { thirds_.push() = command; }
-  [[nodiscard]] double take_third() { return thirds_.pop(); }
 
  private:
   // A recurring instant: `shift` after the sample or frame of that number.
@@ -147,11 +146,8 @@ class SampleExchange {
 
   void go_on(Clock& clock) {
     ++clock.number;
-    put(clock);
+    clock.next = time_of(clock.number) + clock.shift;
   }
-  // Sets the time of the present number.
-  void put(Clock& clock) { clock.next = time_of(clock.number) + clock.shift; }
-  [[nodiscard]] double frame_time() const { return expose_.number * *frames_ + expose_.shift; }
   void go_on_exposing();
   void skip_past();
   void forget_times();
@@ -160,11 +156,10 @@ class SampleExchange {
   bool even_;
   double period_, since_, sensor_delay_, one_instant_;
   Clock expose_, sample_, apply_;
-  std::optional<double> frames_;  // period of a camera's frames, s
-  Queue<Seen> seen_;              // exposed, not yet sampled
-  std::optional<Pair> frame_;     // the last one that has arrived
-  Queue<Pair> commands_;          // computed, not yet applied
-  Queue<double> thirds_;          // with three servos
+  std::optional<double> frames_;                     // period of a camera's frames, s
+  Queue<Seen> seen_;                                 // exposed, not yet sampled
+  std::optional<Pair> frame_;                        // the last one that has arrived
+  Queue<std::array<double, most_servos>> commands_;  // computed, not yet applied
   BallSensor sensor_;
   SampleTimes times_;
   std::optional<SensorFaults> faults_;

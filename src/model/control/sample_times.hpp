@@ -32,11 +32,6 @@ class SampleTimes {
   // The time of sample n = 0, 1, ..., s; not of samples that have been forgotten.
   [[nodiscard]] double at(double n);
 
-  // Whether the time is known without drawing it.
-  [[nodiscard]] bool knows(double n) const {
-    return n >= first_ && n < first_ + static_cast<double>(times_.size());
-  }
-
   // Forgets the samples before the n-th.
   void forget_before(double n);
 

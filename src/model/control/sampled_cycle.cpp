@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <utility>
 
 #include "model/control/sample_times.hpp"
 #include "model/dense.hpp"
@@ -29,11 +28,13 @@ struct SampledCycle::Inputs {
   bool open[2]{};  // whether that loop is open
 };
 
-CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at,
-                       std::vector<int>& states) {
-  states = linear_states(plant.places, plant.of_state, {0, 1}, SpinStands::last);
+SampledCycle::SampledCycle(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at,
+                           Frames frames)
+    : places_(plant.places),
+      states_(linear_states(plant.places, plant.of_state, {0, 1}, SpinStands::last)) {
+  const std::vector<int>& states = states_;
   const SampledLoop& sampled = *rig.sampled;
-  CycleParts parts;
+  CycleParts& parts = parts_;
   parts.servos = plant.places.servos;
   parts.a = plant.of_state(states, states);
   parts.b = plant.of_command(states, Eigen::all);
@@ -54,42 +55,9 @@ CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig, const Line
   const double(&k)[2][2] = sampled.law.integral;
   parts.of_integral << k[0][0], k[0][1], k[1][0], k[1][1];
   for (int i = 0; i < parts.servos; ++i) parts.time_constant[i] = rig.servo[i].time_constant;
-  return parts;
-}
-
-namespace {
-
-// The frames that a cycle's samples use, by number, and their times of exposure.
-struct Frames {
-  double period, phase, delay;  // s
-  double sampling;              // the period of the samples, s
-  double first_seen;            // seen by the sample at the cycle's start
-  double first;                 // of those exposed in the cycle
-  double count;                 // of frames exposed in a cycle
-
-  [[nodiscard]] double seen_by(double sample) const {
-    return std::floor(((sample + one_instant) * sampling - delay - phase) / period);
+  if (frames == Frames::of_equal_age && common_cycle(parts.sampling, parts.sensor).samples > 1) {
+    parts.sensor.period.reset();
   }
-};
-
-Frames frames_of(const CycleParts& parts, const CommonCycle& cycle) {
-  const double sampling = parts.sampling.period, delay = parts.sensor.delay;
-  const bool own = parts.sensor.period && cycle.known;
-  Frames frames{own ? *parts.sensor.period : sampling,
-                own ? parts.sensor.phase : -delay,
-                delay,
-                sampling,
-                0,
-                0,
-                cycle.frames};
-  frames.first_seen = frames.seen_by(0);
-  frames.first = std::ceil((-one_instant * sampling - frames.phase) / frames.period);
-  return frames;
-}
-
-}  // namespace
-
-SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
   for (const Eigen::Index i : {0, 1}) {
     if (!parts_.of_integral.row(i).isZero(0)) integrating_.push_back(i);
   }
@@ -98,8 +66,17 @@ SampledCycle::SampledCycle(CycleParts parts) : parts_(std::move(parts)) {
 
 void SampledCycle::plan() {
   const CommonCycle cycle = common_cycle(parts_.sampling, parts_.sensor);
-  const Frames frames = frames_of(parts_, cycle);
   const double period = parts_.sampling.period, near = one_instant * period;
+  // The frames that the samples use, by number, and their times of exposure.
+  const Sensor& sensor = parts_.sensor;
+  const bool own = sensor.period && cycle.known;
+  const double of_frames = own ? *sensor.period : period,
+               phase = own ? sensor.phase : -sensor.delay;
+  const auto seen_by = [&](double sample) {
+    return std::floor(((sample + one_instant) * period - sensor.delay - phase) / of_frames);
+  };
+  const double first_seen = seen_by(0);  // by the sample at the cycle's start
+  const double first = std::ceil((-near - phase) / of_frames);  // exposed in the cycle
   const auto samples = static_cast<int>(cycle.samples);
 
   struct Event {
@@ -110,36 +87,35 @@ void SampledCycle::plan() {
   // Numbers of the frames in use, as of the cycle in which they are exposed.
   std::vector<double> seen;
   for (int i = 0; i < samples; ++i) {
-    const double number = frames.seen_by(i);
-    seen.push_back(number - frames.count * std::floor((number - frames.first) / frames.count));
+    const double number = seen_by(i);
+    seen.push_back(number - cycle.frames * std::floor((number - first) / cycle.frames));
   }
   std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   for (const double number : seen) {
-    double time = frames.phase + number * frames.period;
+    double time = phase + number * of_frames;
     const double at_sample = std::round(time / period) * period;
     if (std::abs(time - at_sample) <= near) time = at_sample;
     events.push_back({time, Act::expose});
   }
   // All of them in order, from the one that the first sample uses.
   std::vector<double> queue;
-  for (double back = std::ceil((frames.first - frames.first_seen) / frames.count); back >= 0;
-       --back) {
+  for (double back = std::ceil((first - first_seen) / cycle.frames); back >= 0; --back) {
     for (const double number : seen) {
-      const double then = number - back * frames.count;
-      if (then >= frames.first_seen) queue.push_back(then);
+      const double then = number - back * cycle.frames;
+      if (then >= first_seen) queue.push_back(then);
     }
   }
   exposures_ = static_cast<std::size_t>(
-      std::ranges::count_if(queue, [&](double number) { return number < frames.first; }));
+      std::ranges::count_if(queue, [&](double number) { return number < first; }));
   std::size_t front = 0;
   const auto skip_to = [&](double number) {
     int skipped = 0;
     for (; front < queue.size() && queue[front] < number; ++front) ++skipped;
     return skipped;
   };
-  for (int i = 0; i < samples; ++i) skipped_.push_back(skip_to(frames.seen_by(i)));
-  skipped_last_ = skip_to(frames.first_seen + frames.count);
+  for (int i = 0; i < samples; ++i) skipped_.push_back(skip_to(seen_by(i)));
+  skipped_last_ = skip_to(first_seen + cycle.frames);
 
   const double whole = std::floor(parts_.sampling.delay / period + one_instant);
   double application = std::max(0.0, parts_.sampling.delay - whole * period);
@@ -190,8 +166,8 @@ int SampledCycle::size() const {
          (begins_held_ ? 2 : 0);
 }
 
-std::vector<LinearSignal> SampledCycle::memory(const std::string& command_unit) const {
-  std::vector<LinearSignal> signals;
+std::vector<LinearSignal> SampledCycle::signals(const std::string& command_unit) const {
+  std::vector<LinearSignal> signals = state_signals(places_, command_unit, states_);
   const auto add = [&signals](const char* first, const char* second, const std::string& suffix,
                               const std::string& unit) {
     signals.push_back({first + suffix, unit});
@@ -210,39 +186,41 @@ std::vector<LinearSignal> SampledCycle::memory(const std::string& command_unit) 
   return signals;
 }
 
+template <class Use>
+void SampledCycle::for_each_part(Parts& of, Use use) const {
+  use(of.plant);
+  for (Pairs& seen : of.exposures) use(seen);
+  use(of.position);
+  use(of.velocity);
+  for (const Eigen::Index i : integrating_) use(of.integral.row(i));
+  for (Pairs& command : of.commands) use(command);
+  if (begins_held_) use(of.held);
+}
+
 SampledCycle::Parts SampledCycle::unpacked(const MatrixXd& states) const {
-  Parts of;
-  const Eigen::Index count = states.cols();
-  Eigen::Index next = parts_.a.rows();
-  of.plant = states.topRows(next);
-  const auto pair = [&]() -> Pairs {
-    next += 2;
-    return states.middleRows(next - 2, 2);
-  };
-  for (std::size_t i = 0; i < exposures_; ++i) of.exposures.push_back(pair());
-  of.position = pair();
-  of.velocity = pair();
-  of.integral = Pairs::Zero(2, count);
-  for (const Eigen::Index i : integrating_) of.integral.row(i) = states.row(next++);
-  for (std::size_t i = 0; i < commands_; ++i) of.commands.push_back(pair());
-  of.held = begins_held_ ? pair() : Pairs::Zero(2, count).eval();
+  const Pairs none = Pairs::Zero(2, states.cols());
+  Parts of{MatrixXd(parts_.a.rows(), states.cols()),
+           std::deque<Pairs>(exposures_, none),
+           std::deque<Pairs>(commands_, none),
+           none,
+           none,
+           none,
+           none};
+  Eigen::Index next = 0;
+  for_each_part(of, [&](auto&& part) {
+    part = states.middleRows(next, part.rows());
+    next += part.rows();
+  });
   return of;
 }
 
-MatrixXd SampledCycle::packed(const Parts& of) const {
+MatrixXd SampledCycle::packed(Parts& of) const {
   MatrixXd states(size(), of.plant.cols());
-  Eigen::Index next = of.plant.rows();
-  states.topRows(next) = of.plant;
-  const auto put = [&](const Pairs& pairs) {
-    states.middleRows(next, 2) = pairs;
-    next += 2;
-  };
-  for (const Pairs& seen : of.exposures) put(seen);
-  put(of.position);
-  put(of.velocity);
-  for (const Eigen::Index i : integrating_) states.row(next++) = of.integral.row(i);
-  for (const Pairs& command : of.commands) put(command);
-  if (begins_held_) put(of.held);
+  Eigen::Index next = 0;
+  for_each_part(of, [&](auto&& part) {
+    states.middleRows(next, part.rows()) = part;
+    next += part.rows();
+  });
   return states;
 }
 

@@ -20,8 +20,8 @@ namespace bbsim::model {
 // of [A, B; 0, 0]: Van Loan, IEEE Trans. Automatic Control 23 (1978).
 [[nodiscard]] LinearPlant zero_order_hold(const LinearPlant& plant, double time);
 
-// Parts of a sampled loop about any point. The first states of the plant are x, y, x', y', the
-// servos' angles and their rates; others may follow.
+// Parts of a sampled loop. The first states of the plant are x, y, x', y', the servos' angles and
+// their rates; others may follow.
 struct CycleParts {
   int servos = 2;
   Eigen::MatrixXd a, b;
@@ -41,11 +41,6 @@ struct CycleParts {
   std::optional<double> time_constant[most_servos]{};     // of first-order servos, s
 };
 
-// Parts about a point, from the plant there and the rig's sampled controller. `states` receives the
-// indices of the plant's states that the cycle has.
-[[nodiscard]] CycleParts cycle_parts(const PlantDerivatives& plant, const Rig& rig,
-                                     const LinearPoint& at, std::vector<int>& states);
-
 // The map of a cycle with n states, and the effect of a reference (its values, rates and
 // accelerations, two of each) and of commands that stay constant throughout.
 struct SampledMap {
@@ -63,13 +58,15 @@ struct SampledMap {
 // begins with it.
 class SampledCycle {
  public:
-  explicit SampledCycle(CycleParts parts);
+  // Frames of a sensor that samples see at different ages make a cycle of several samples. With
+  // `of_equal_age`, each sample gets a frame of its own instead.
+  enum class Frames { as_they_are, of_equal_age };
+  // About a point, from the plant there and the rig's sampled controller.
+  SampledCycle(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at, Frames frames);
 
   [[nodiscard]] int size() const;
-  // The cycle's length in sampling periods.
-  [[nodiscard]] int samples() const { return static_cast<int>(skipped_.size()); }
-  // Signals of the states after the plant's.
-  [[nodiscard]] std::vector<LinearSignal> memory(const std::string& command_unit) const;
+  // Signals of the states.
+  [[nodiscard]] std::vector<LinearSignal> signals(const std::string& command_unit) const;
   // Place and number of the controller's own states, from the position on.
   [[nodiscard]] int controller_at() const;
   [[nodiscard]] int controller_size() const;
@@ -88,13 +85,18 @@ class SampledCycle {
   struct Parts;
   struct Inputs;
   [[nodiscard]] Parts unpacked(const Eigen::MatrixXd& states) const;
-  [[nodiscard]] Eigen::MatrixXd packed(const Parts& parts) const;
+  [[nodiscard]] Eigen::MatrixXd packed(Parts& parts) const;
+  // Calls use(rows) for the parts in the order of the states.
+  template <class Use>
+  void for_each_part(Parts& of, Use use) const;
   void plan();
   Pairs sample(Parts& of, const Inputs& inputs) const;  // returns the law's commands
   void expose(Parts& of) const;
   void apply(Parts& of) const;
 
   CycleParts parts_;
+  StatePlaces places_;
+  std::vector<int> states_;                   // of the plant, by index
   std::vector<Eigen::Index> integrating_;     // commands with an integral part
   bool begins_held_ = false;                  // whether the cycle begins with a held command
   std::size_t exposures_ = 0, commands_ = 0;  // in the queues at the cycle's start

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "model/eigenvalues.hpp"
 
@@ -45,17 +43,10 @@ Sum ratio(const Sum& a, const Sum& b) {
 // [A, B; C, D] with this many states. Rows are states, then outputs; columns are states, then
 // inputs.
 struct Pencil {
-  Index states = 0;
-  std::vector<std::vector<Sum>> rows;
+  Index states;
+  Eigen::Matrix<Sum, Eigen::Dynamic, Eigen::Dynamic> at;
 
-  [[nodiscard]] Index row_count() const { return std::ssize(rows); }
-  [[nodiscard]] Index column_count() const { return rows.empty() ? states : std::ssize(rows[0]); }
-  Sum& at(Index i, Index j) {
-    return rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  }
-  [[nodiscard]] const Sum& at(Index i, Index j) const {
-    return rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  }
+  [[nodiscard]] Pencil transposed() const { return {states, at.transpose()}; }
 };
 
 void add(Sum& to, const Sum& factor, const Sum& what, double sign) {
@@ -93,7 +84,7 @@ std::vector<Index> range(Index from, Index to) {
 void eliminate(Pencil& of, const Place& pivot, Index row) {
   if (of.at(row, pivot.column).value == 0) return;
   const Sum factor = ratio(of.at(row, pivot.column), of.at(pivot.row, pivot.column));
-  for (Index j = 0; j < of.column_count(); ++j) {
+  for (Index j = 0; j < of.at.cols(); ++j) {
     if (j != pivot.column) add(of.at(row, j), factor, of.at(pivot.row, j), -1);
   }
   of.at(row, pivot.column) = {};
@@ -101,8 +92,8 @@ void eliminate(Pencil& of, const Place& pivot, Index row) {
 
 // Returns D's pivots. The other rows of outputs, `without`, become 0 in the columns of inputs.
 std::vector<Place> compress_inputs(Pencil& of, std::vector<Index>& without) {
-  without = range(of.states, of.row_count());
-  std::vector<Index> columns = range(of.states, of.column_count());
+  without = range(of.states, of.at.rows());
+  std::vector<Index> columns = range(of.states, of.at.cols());
   std::vector<Place> pivots;
   while (const auto pivot = largest_of(of, without, columns)) {
     std::erase(without, pivot->row);
@@ -111,7 +102,7 @@ std::vector<Place> compress_inputs(Pencil& of, std::vector<Index>& without) {
     pivots.push_back(*pivot);
   }
   for (const Index row : without) {
-    for (Index j = of.states; j < of.column_count(); ++j) of.at(row, j) = {};
+    for (Index j = of.states; j < of.at.cols(); ++j) of.at(row, j) = {};
   }
   return pivots;
 }
@@ -129,8 +120,8 @@ std::vector<Index> compress_states(Pencil& of, std::vector<Index> outputs,
       if (of.at(pivot->row, j).value == 0) continue;
       // x_k + f x_j replaces x_k as a state.
       const Sum f = ratio(of.at(pivot->row, j), of.at(pivot->row, k));
-      for (Index i = 0; i < of.row_count(); ++i) add(of.at(i, j), f, of.at(i, k), -1);
-      for (Index i = 0; i < of.column_count(); ++i) add(of.at(k, i), f, of.at(j, i), 1);
+      for (Index i = 0; i < of.at.rows(); ++i) add(of.at(i, j), f, of.at(i, k), -1);
+      for (Index i = 0; i < of.at.cols(); ++i) add(of.at(k, i), f, of.at(j, i), 1);
       of.at(pivot->row, j) = {};
     }
     for (const Index row : outputs) of.at(row, k) = {};
@@ -150,27 +141,11 @@ Pencil reduced(Pencil of) {
     std::vector<Index> kept = unseen, columns = unseen;
     kept.insert(kept.end(), seen.begin(), seen.end());
     for (const Place& pivot : pivots) kept.push_back(pivot.row);
-    for (Index j = of.states; j < of.column_count(); ++j) columns.push_back(j);
-    Pencil next;
-    next.states = std::ssize(unseen);
-    for (const Index i : kept) {
-      next.rows.emplace_back();
-      for (const Index j : columns) next.rows.back().push_back(of.at(i, j));
-    }
-    of = std::move(next);
+    for (Index j = of.states; j < of.at.cols(); ++j) columns.push_back(j);
+    of = Pencil{std::ssize(unseen), of.at(kept, columns)};
     if (seen.empty()) break;
   }
   return of;
-}
-
-Pencil transposed(const Pencil& of) {
-  Pencil result;
-  result.states = of.states;
-  for (Index j = 0; j < of.column_count(); ++j) {
-    result.rows.emplace_back();
-    for (Index i = 0; i < of.row_count(); ++i) result.rows.back().push_back(of.at(i, j));
-  }
-  return result;
 }
 
 // Changes units by powers of 2: of states, so that a row and its column are similar in size; of
@@ -217,17 +192,10 @@ std::vector<std::complex<double>> transmission_zeros(const MatrixXd& a, const Ma
   MatrixXd all(n + inputs, n + inputs);
   all << a, b, c, d;
   balance(all, n);
-  Pencil pencil;
-  pencil.states = n;
-  for (Index i = 0; i < all.rows(); ++i) {
-    pencil.rows.emplace_back();
-    for (Index j = 0; j < all.cols(); ++j) {
-      pencil.rows.back().push_back({all(i, j), std::abs(all(i, j))});
-    }
-  }
-  Pencil square = transposed(reduced(transposed(reduced(std::move(pencil)))));
+  const Pencil pencil{n, all.unaryExpr([](double entry) { return Sum{entry, std::abs(entry)}; })};
+  Pencil square = reduced(reduced(pencil).transposed()).transposed();
   const Index left = square.states;
-  if (left == 0 || square.row_count() != square.column_count()) return {};
+  if (left == 0 || square.at.rows() != square.at.cols()) return {};
   // A - B D^-1 C.
   std::vector<Index> without;
   const std::vector<Place> pivots = compress_inputs(square, without);
@@ -235,13 +203,9 @@ std::vector<std::complex<double>> transmission_zeros(const MatrixXd& a, const Ma
   for (const Place& pivot : pivots) {
     for (Index row = 0; row < left; ++row) eliminate(square, pivot, row);
   }
-  MatrixXd matrix(left, left);
-  for (Index i = 0; i < left; ++i) {
-    for (Index j = 0; j < left; ++j) {
-      const Sum& entry = square.at(i, j);
-      matrix(i, j) = entry.is_rounding() ? 0 : entry.value;
-    }
-  }
+  const MatrixXd matrix = square.at.topLeftCorner(left, left).unaryExpr([](const Sum& entry) {
+    return entry.is_rounding() ? 0.0 : entry.value;
+  });
   std::vector<std::complex<double>> zeros =
       left > most_exact ? eigenvalues_of(matrix) : exact_eigenvalues(matrix);
   std::sort(zeros.begin(), zeros.end(), [](const auto& p, const auto& q) {

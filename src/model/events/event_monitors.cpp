@@ -13,21 +13,9 @@
 namespace bbsim::model {
 
 const char* Monitor::name() const {
-  switch (kind) {
-    case Kind::edge:
-      return "edge";
-    case Kind::slip:
-      return "slip";
-    case Kind::lift_off:
-      return "lift_off";
-    case Kind::tilt:
-      return "tilt";
-    case Kind::singularity:
-      return "singularity";
-    case Kind::dead_point:
-      return "dead_point";
-  }
-  return "";
+  constexpr const char* of_kind[] = {"edge", "slip",        "lift_off",
+                                     "tilt", "singularity", "dead_point"};
+  return of_kind[static_cast<int>(kind)];
 }
 
 double EventMonitors::edge_margin(const Sample& sample) const {
@@ -40,29 +28,6 @@ double EventMonitors::edge_margin(const Sample& sample) const {
     left = std::min(left, *plate.diameter / 2 - std::hypot(sample.ball.x, sample.ball.y));
   }
   return left;
-}
-
-void EventMonitors::append_scales(std::vector<double>& scales) const {
-  using Kind = Monitor::Kind;
-  const double weight = constants.mass * (constants.gravity > 0 ? constants.gravity : 1.0);
-  for (const Monitor& monitor : monitors) {
-    switch (monitor.kind) {
-      case Kind::slip:
-      case Kind::lift_off:
-        scales.push_back(weight);
-        break;
-      case Kind::edge:
-        scales.push_back(edge_margin({}));  // the margin at the plate's center
-        break;
-      case Kind::tilt:
-      case Kind::singularity:
-        scales.push_back(monitor.limit);
-        break;
-      case Kind::dead_point:
-        scales.push_back(1);  // rad
-        break;
-    }
-  }
 }
 
 void EventMonitors::margins(const Sample& sample, double* values) const {
@@ -102,29 +67,33 @@ EventMonitors event_monitors(const Scenario& scene) {
   EventMonitors list{{}, scene.plate, constants_of(scene)};
   const Events& events = scene.events;
   using Kind = Monitor::Kind;
-  if (events.edge) list.monitors.push_back({Kind::edge, *events.edge});
+  const double weight = list.constants.mass * (scene.gravity > 0 ? scene.gravity : 1.0);
+  // Of the edge, the scale is the margin at the plate's center.
+  if (events.edge) list.monitors.push_back({Kind::edge, *events.edge, list.edge_margin({})});
   if (events.slip && !events.slip->sliding) {
-    list.monitors.push_back({Kind::slip, events.slip->action, events.slip->friction});
+    list.monitors.push_back({Kind::slip, events.slip->action, weight, events.slip->friction});
   }
   // Friction proportional to a negative normal force would drive the ball.
   const bool in_proportion =
       scenario::has_dry_losses(scene) || (events.slip && events.slip->sliding);
   if (events.lift_off || in_proportion) {
-    list.monitors.push_back({Kind::lift_off, events.lift_off.value_or(OnEvent::stop)});
+    list.monitors.push_back({Kind::lift_off, events.lift_off.value_or(OnEvent::stop), weight});
   }
   // Feedback linearization leaves the tilt unstable. Without this event, the plane would turn over
   // faster and faster.
   const bool inverts = scene.controller && scene.controller->law == Law::feedback_linearisation;
   if (events.tilt || inverts) {
     const TiltEvent limit = events.tilt.value_or(TiltEvent{std::numbers::pi / 2, OnEvent::stop});
-    list.monitors.push_back({Kind::tilt, limit.action, limit.limit});
+    list.monitors.push_back({Kind::tilt, limit.action, limit.limit, limit.limit});
   }
   if (events.singularity || inverts) {
     const SingularityEvent guard = events.singularity.value_or(SingularityEvent{});
-    list.monitors.push_back({Kind::singularity, guard.action, guard.distance});
+    list.monitors.push_back({Kind::singularity, guard.action, guard.distance, guard.distance});
   }
   // The model has no motion beyond a dead point.
-  if (scenario::is_linked(scene)) list.monitors.push_back({Kind::dead_point, OnEvent::stop});
+  if (scenario::is_linked(scene)) {
+    list.monitors.push_back({Kind::dead_point, OnEvent::stop, 1});  // 1 rad
+  }
   return list;
 }
 

@@ -17,6 +17,7 @@ struct Monitor {
   enum class Kind { edge, slip, lift_off, tilt, singularity, dead_point };
   Kind kind;
   OnEvent action;
+  double scale;      // of its margin
   double limit = 0;  // friction coefficient, angle, or distance
 
   [[nodiscard]] const char* name() const;
@@ -28,13 +29,9 @@ struct EventMonitors {
   Plate plate;
   BallConstants constants;
 
-  // Appends the scale of each monitor's margin.
-  void append_scales(std::vector<double>& scales) const;
-
   // Writes each monitor's margin, negative beyond the event.
   void margins(const Sample& sample, double* values) const;
 
- private:
   [[nodiscard]] double edge_margin(const Sample& sample) const;
 };
 

@@ -86,19 +86,14 @@ void HybridSystem::evaluate_guards(double t, const double* z, double* values) co
   });
 }
 
-template <class Use>
-void HybridSystem::with_part_of(std::size_t guard, Use use) {
-  std::size_t next = 0;
-  for_each(parts_, [&](auto& part) {
-    if (guard >= next && guard < next + part.guards()) use(part, guard - next);
-    next += part.guards();
-  });
-}
-
 Effect HybridSystem::handle_state_event(std::size_t i, double t, double* z) {
   if (i >= first_monitor()) return part_of<Monitors>(parts_)->change(i - first_monitor(), t, z);
   for_each(parts_, [&](auto& part) { part.leave_mode(t, z); });
-  with_part_of(i, [](auto& part, std::size_t guard) { part.cross(guard); });
+  std::size_t next = 0;
+  for_each(parts_, [&](auto& part) {
+    if (i >= next && i < next + part.guards()) part.cross(i - next);
+    next += part.guards();
+  });
   reset(t, z);
   return note_dry(t, z) == Effect::stop || stops_ ? Effect::stop : Effect::restart;
 }

@@ -169,9 +169,6 @@ class HybridSystem {
     for_each(parts_, [&](const auto& part) { first = std::min(first, time(part)); });
     return first;
   }
-  // Calls `use` with the part that owns the guard, and the guard's index in that part.
-  template <class Use>
-  void with_part_of(std::size_t guard, Use use);
   void reset(double t, double* z);
   Effect note_dry(double t, const double* z);
 

@@ -58,7 +58,7 @@ class Monitors : public Part {
   // One guard per monitor, with the opposite sign while the event holds.
   [[nodiscard]] std::size_t guards() const { return occurring_.size(); }
   void append_scales(std::vector<double>& scales) const {
-    model_.get().events->append_scales(scales);
+    for (const Monitor& monitor : of()) scales.push_back(monitor.scale);
   }
   void evaluate(const GuardContext& now, double* values) const {
     margins(now.t, now.z, values);

@@ -5,7 +5,6 @@
 // servos' work.
 #pragma once
 
-#include <algorithm>
 #include <type_traits>
 #include <variant>
 
@@ -17,11 +16,7 @@ namespace bbsim::model {
 // The energy of a rolling ball and of the bodies that turn with the plane, (M51), J.
 [[nodiscard]] inline double energy_of(const CoupledBall& ball, const double* z,
                                       const RigExtras& plane) {
-  BallConstants constants{ball.r, ball.m, ball.g, false, ball.rolling};
-  std::copy_n(ball.body.plate, 3, constants.plate_inertia.begin());
-  constants.plate_imbalance = ball.body.imbalance;
-  constants.ring_inertia = ball.body.ring;
-  constants.rotor_inertia = ball.body.rotor;
+  const BallConstants constants{ball.r, ball.m, ball.g, false, ball.rolling, ball.body};
   Sample sample;
   sample.ball = ball_motion<Shape::full>(RigLayout::unpack(z), ball.r);
   sample.gimbal = {plane.angle[0], plane.angle[1], plane.rate[0], plane.rate[1], 0, 0};
@@ -35,10 +30,7 @@ namespace bbsim::model {
       [&](const auto& any) {
         using Any = std::decay_t<decltype(any)>;
         if constexpr (is_coupled_loop<Any>) {
-          const double still[Any::servos] = {};
-          RigExtras plane{};
-          any.loop.fill(z, still, plane);
-          return energy_of(any.parts.ball, z, plane);
+          return energy_of(any.parts.ball, z, any.loop.plane(z));
         } else {
           return 0.0;
         }

@@ -15,22 +15,15 @@ namespace {
 
 // The servos' angles and rates as the firmware knows them.
 struct KnownServos {
-  KnownServos(const SwitchedModel& model, double t, const double* z)
-      : angle(z + SwitchedModel::angle), rate(z + model.rate()) {
-    if (!model.mode().rings) return;
+  double angle[most_servos], rate[most_servos];
+
+  KnownServos(const SwitchedModel& model, double t, const double* z) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(model.rig().servos); ++i) {
       const SwitchedModel::ServoReading of = model.counted(i, t, z);
-      counted[0][i] = of.angle;
-      counted[1][i] = of.rate;
+      angle[i] = of.angle;
+      rate[i] = of.rate;
     }
-    angle = counted[0];
-    rate = counted[1];
   }
-  KnownServos(const KnownServos&) = delete;  // points into itself
-  KnownServos& operator=(const KnownServos&) = delete;
-
-  const double *angle, *rate;
-  double counted[2][most_servos];
 };
 
 }  // namespace
@@ -73,9 +66,7 @@ void Sampling::take(double t, double end, const double* z) {
   const double number = exchange_.sample_number();
   const std::optional<Pair> seen = begin(end);
   if (model_.rig().sampled->external) return ask_external(t, number, seen, z);
-  const KnownServos known(model_, t, z);
-  const double* const angle = known.angle;
-  const double* const rate = known.rate;
+  const auto [angle, rate] = KnownServos(model_, t, z);
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
   if (!is_direct_ && controller_.law().law.feeds_servos_back()) {
     model_.rig().mechanism.believed(angle, rate, servo);
@@ -89,9 +80,7 @@ void Sampling::ask_external(double t, double number, const std::optional<Pair>& 
   const Rig& rig = model_.rig();
   ExternalController& external = *rig.sampled->external;
   if (number == 0) external.begin();
-  const KnownServos known(model_, t, z);
-  const double* const angle = known.angle;
-  const double* const rate = known.rate;
+  const auto [angle, rate] = KnownServos(model_, t, z);
   const auto ask = [&](std::span<const double> angles, std::span<const double> rates) {
     return external.command(
         {static_cast<std::size_t>(number), t, seen, angles, rates, reference_at(t)}, own_.data());
@@ -99,9 +88,8 @@ void Sampling::ask_external(double t, double number, const std::optional<Pair>& 
   const Pair measured = seen.value_or(measured_);
   if (rig.sampled->legs) {
     const Commands asked = ask({angle, 3}, {rate, 3});
-    end(controller_.within_limits({asked[0], asked[1]}), measured);
-    exchange_.push_third(controller_.within_limits({asked[2], 0})[0]);
-    return;
+    return end(controller_.within_limits({asked[0], asked[1]}), measured,
+               controller_.within_limits({asked[2], 0})[0]);
   }
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
   if (rig.mechanism.three) rig.mechanism.believed(angle, rate, servo);
@@ -110,19 +98,17 @@ void Sampling::ask_external(double t, double number, const std::optional<Pair>& 
 }
 
 std::array<double, most_servos> Sampling::take_command(RigMode& mode) {
-  const Pair command = exchange_.take_command();
+  const std::array<double, most_servos> command = exchange_.take_command();
   if (model_.rig().sampled->legs) {
-    const std::array<double, most_servos> legs{command[0], command[1], exchange_.take_third()};
     // The servos turn towards any angles. Those without a pose leave the tilt that is shown.
-    const Pair tilt = model_.rig().mechanism.tilt(legs);
+    const Pair tilt = model_.rig().mechanism.tilt(command);
     if (std::isfinite(tilt[0]) && std::isfinite(tilt[1])) {
       std::copy(tilt.begin(), tilt.end(), mode.wanted);
     }
-    return legs;
+    return command;
   }
   for (std::size_t i = 0; i < 2; ++i) mode.wanted[i] = command[i];
-  return is_direct_ ? std::array<double, most_servos>{command[0], command[1], 0}
-                    : controller_.servo_commands(command);
+  return is_direct_ ? command : controller_.servo_commands({command[0], command[1]});
 }
 
 }  // namespace bbsim::model

@@ -34,8 +34,8 @@ class Sampling : public Part {
   // law; or take(), which computes the law.
   [[nodiscard]] bool samples_by(double end) const { return exchange_.samples_by(end); }
   [[nodiscard]] std::optional<Pair> begin(double end) { return exchange_.begin_sample(end); }
-  void end(const Pair& command, const Pair& measured) {
-    exchange_.end_sample(command[0], command[1]);
+  void end(const Pair& command, const Pair& measured, double third = 0) {
+    exchange_.end_sample({command[0], command[1], third});
     measured_ = measured;
   }
   void take(double t, double end, const double* z);

@@ -10,12 +10,7 @@ namespace bbsim::model {
 SwitchedModel::SwitchedModel(const Model& model) : model_(model) {
   std::visit(
       [this](auto& any) {
-        using Any = std::decay_t<decltype(any)>;
-        if constexpr (is_rig<Any>) {
-          mode_ = &any.mode;
-        } else if constexpr (is_coupled_loop<Any>) {
-          mode_ = &any.loop.mode;
-        }
+        if (auto* const loop = rig_loop_of(any)) mode_ = &loop->mode;
       },
       model_.system);
   if (model_.rig) rate_ = angle + static_cast<std::size_t>(model_.rig->servos);
@@ -36,15 +31,6 @@ Demands SwitchedModel::demands(double t, const double* z) const {
   });
 }
 
-RigExtras SwitchedModel::plane(const double* z) const {
-  return with_loop([z](const auto& loop) {
-    const double none[std::decay_t<decltype(loop)>::servos] = {};
-    RigExtras plane{};
-    loop.fill(z, none, plane);
-    return plane;
-  });
-}
-
 Balance<double> SwitchedModel::balance(double t, const double* z) const {
   return std::visit(
       [&](const auto& any) -> Balance<double> {
@@ -59,7 +45,7 @@ Balance<double> SwitchedModel::balance(double t, const double* z) const {
 
 CommandRates SwitchedModel::command_rates(double t, const double* z) const {
   rates_.resize(model_.size());
-  std::visit([&](const auto& any) { any.derivative(t, z, rates_.data()); }, model_.system);
+  std::visit([&](const auto& any) { derivative(any, t, z, rates_.data()); }, model_.system);
   return with_loop([&](const auto& loop) {
     using Loop = std::decay_t<decltype(loop)>;
     using Moving = simd::WithGradient<1>;

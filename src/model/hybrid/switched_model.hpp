@@ -52,14 +52,9 @@ class SwitchedModel {
     if (const auto* const plain = std::get_if<RigLoop<>>(&model_.system)) return use(*plain);
     return std::visit(
         [&](const auto& any) -> Result {
-          using Any = std::decay_t<decltype(any)>;
-          if constexpr (is_rig<Any>) {
-            return use(any);
-          } else if constexpr (is_coupled_loop<Any>) {
-            return use(any.loop);
-          } else {
-            throw std::logic_error("a rig of a scene without a controller");
-          }
+          const auto* const loop = rig_loop_of(any);
+          if (loop == nullptr) throw std::logic_error("a rig of a scene without a controller");
+          return use(*loop);
         },
         model_.system);
   }
@@ -79,7 +74,9 @@ class SwitchedModel {
   // The forces of a coupled scene.
   [[nodiscard]] Balance<double> balance(double t, const double* z) const;
   // The plane's angles and rates.
-  [[nodiscard]] RigExtras plane(const double* z) const;
+  [[nodiscard]] RigExtras plane(const double* z) const {
+    return with_loop([z](const auto& loop) { return loop.plane(z); });
+  }
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail) const {
     return std::visit([&](const auto& system) { return system.sample(t, z, detail); },
                       model_.system);

@@ -353,13 +353,11 @@ std::size_t Linkage::command_piece_at(std::size_t present, double wanted) const 
   // At the end of the present piece, the next piece.
   const bool rises = curve.slope > 0;
   const double angle = wanted + curve.shift;
-  if (std::abs(angle - holds.high) <= near) {
-    return rises ? std::min(present + 1, last) : present - (present > 0 ? 1 : 0);
+  const bool at_high = std::abs(angle - holds.high) <= near;
+  if (!at_high && !(std::abs(angle - holds.low) <= near)) {
+    return piece_at(present, servo_for(wanted), 1);
   }
-  if (std::abs(angle - holds.low) <= near) {
-    return rises ? present - (present > 0 ? 1 : 0) : std::min(present + 1, last);
-  }
-  return piece_at(present, servo_for(wanted), 1);
+  return at_high == rises ? std::min(present + 1, last) : present - (present > 0 ? 1 : 0);
 }
 
 CommandRange Linkage::piece_range(std::size_t piece) const {
@@ -455,11 +453,7 @@ Mechanism mechanism_of(const Scenario& scene) {
   const double offset[2] = {mounting.phi_offset, mounting.theta_offset};
   if (scene.gimbal.three_servos) {
     ThreeServos three = make_three_servos(*scene.gimbal.three_servos, assumed);
-    for (int i = 0; i < 2; ++i) {
-      three.offset[i] = offset[i];
-      three.cos_offset[i] = std::cos(offset[i]);
-      three.sin_offset[i] = std::sin(offset[i]);
-    }
+    for (int i = 0; i < 2; ++i) three.set_offset(i, offset[i]);
     mechanism.three = three;
     if (controller.assumed_legs) {
       mechanism.assumed =

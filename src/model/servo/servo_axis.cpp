@@ -28,7 +28,7 @@ AxisMargin ServoAxis::push_at_stop() const {
   return push;
 }
 
-ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
+ServoAxis::Motion ServoAxis::choose(AxisState& state) {
   const double stop = servo_.angle_limit, fastest = servo_.rate_limit;
   if (servo_.time_constant) {
     state.rate =
@@ -43,19 +43,22 @@ ServoAxis::Motion ServoAxis::choose(AxisState& state) const {
     if (sign * pushing < 0 && state.rate == 0) continue;
     halted.angle = sign * stop;
     state = halted;
-    if (sign * pushing >= 0) return sign > 0 ? Motion::stop_up : Motion::stop_down;
+    if (sign * pushing < 0) continue;
+    limit_side_ = sign;
+    return Motion::at_stop;
   }
   for (const int sign : {1, -1}) {
     if (sign * state.rate >= fastest * at_limit && sign * push().at(state) > 0) {
       state.rate = sign * fastest;
-      return sign > 0 ? Motion::rate_up : Motion::rate_down;
+      limit_side_ = sign;
+      return Motion::at_rate;
     }
   }
-  if (!servo_.time_constant) {
-    if (state.demand > servo_.acceleration_limit) return Motion::accelerating_up;
-    if (state.demand < -servo_.acceleration_limit) return Motion::accelerating_down;
+  if (servo_.time_constant || !(std::abs(state.demand) > servo_.acceleration_limit)) {
+    return Motion::free;
   }
-  return Motion::free;
+  limit_side_ = state.demand > 0 ? 1 : -1;
+  return Motion::accelerating;
 }
 
 void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
@@ -67,8 +70,9 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
   }
   if (!started_) plane_ = state.angle + servo_.offset;
   // While engaged, the plane moved with the servo.
-  if (started_ && play_ == Play::up) plane_ = state.angle - half + servo_.offset;
-  if (started_ && play_ == Play::down) plane_ = state.angle + half + servo_.offset;
+  if (started_ && play_ == Play::contact) {
+    plane_ = state.angle - contact_side_ * half + servo_.offset;
+  }
   started_ = true;
   const double lead = state.angle + servo_.offset - plane_;
   const double rounding = guard_rounding * gap_scale(state.angle);
@@ -76,19 +80,19 @@ void ServoAxis::settle_backlash(const AxisState& state, AxisMode& mode) {
   // A servo at rest moves in the direction of its drive. Engaging it against that would last no
   // time.
   const double at_rest = rounding;
-  const auto moves = [&](int sign) {
-    return sign * state.rate > at_rest ||
-           (sign * state.rate >= -at_rest && sign * drive(state) > 0);
-  };
-  if (lead >= touching && moves(1)) {
-    play_ = Play::up;
-  } else if (lead <= -touching && moves(-1)) {
-    play_ = Play::down;
-  } else {
-    play_ = Play::gap;
+  play_ = Play::gap;
+  mode.ratio = 0;
+  mode.offset = plane_;
+  for (const int sign : {1, -1}) {
+    const bool moves =
+        sign * state.rate > at_rest || (sign * state.rate >= -at_rest && sign * drive(state) > 0);
+    if (!(sign * lead >= touching && moves)) continue;
+    play_ = Play::contact;
+    contact_side_ = sign;
+    mode.ratio = 1;
+    mode.offset = servo_.offset - sign * half;
+    break;
   }
-  mode.ratio = play_ == Play::gap ? 0 : 1;
-  mode.offset = play_ == Play::gap ? plane_ : servo_.offset + (play_ == Play::up ? -half : half);
 }
 
 // The servo's acceleration. Zero for first order, where the command sets the rate directly.
@@ -99,10 +103,8 @@ double ServoAxis::drive(const AxisState& state) const {
       return state.demand;
     case Motion::on_ramp:
       return ramp_.acceleration;
-    case Motion::accelerating_up:
-      return servo_.acceleration_limit;
-    case Motion::accelerating_down:
-      return -servo_.acceleration_limit;
+    case Motion::accelerating:
+      return limit_side_ * servo_.acceleration_limit;
     default:
       return 0;
   }
@@ -115,8 +117,7 @@ void ServoAxis::plan_ramp(AxisState& state) {
     if (is_new) state.rate = (target_ - state.angle) / servo_.pulse_time;
     ramp_ = part_at_rate(state.angle, state.rate, target_);
   } else {
-    ramp_ =
-        next_part(state.angle, state.rate, target_, {servo_.rate_limit, servo_.acceleration_limit});
+    ramp_ = next_part(state.angle, state.rate, target_, servo_);
   }
 }
 
@@ -156,33 +157,18 @@ void ServoAxis::settle_stall(const AxisState& state, AxisMode& mode) {
 }
 
 void ServoAxis::settle(AxisState& state, AxisMode& mode) {
-  mode.demand_factor = 0;
-  mode.set_acceleration = 0;
   if (servo_.step > 0) {
     motion_ = Motion::on_ramp;
     plan_ramp(state);
   } else {
     motion_ = choose(state);
   }
-  switch (motion_) {
-    case Motion::free:
-      mode.demand_factor = 1;
-      break;
-    case Motion::on_ramp:
-      mode.set_acceleration = ramp_.acceleration;
-      break;
-    case Motion::accelerating_up:
-      mode.set_acceleration = servo_.acceleration_limit;
-      break;
-    case Motion::accelerating_down:
-      mode.set_acceleration = -servo_.acceleration_limit;
-      break;
-    default:
-      break;
-  }
+  const bool is_free = motion_ == Motion::free;
+  mode.demand_factor = is_free ? 1 : 0;
+  mode.set_acceleration = is_free ? 0 : drive(state);
   settle_backlash(state, mode);
   if (servo_.torque_limit < unlimited) settle_stall(state, mode);
-  const bool calm = motion_ == Motion::free && play_ == Play::none && !servo_.time_constant;
+  const bool calm = is_free && play_ == Play::none && !servo_.time_constant;
   calm_angle_ = calm ? servo_.angle_limit * at_limit : 0;
   calm_rate_ = calm ? servo_.rate_limit * at_limit : 0;
 }
@@ -198,9 +184,12 @@ void ServoAxis::for_each_margin(Use use) const {
       use(sign > 0 ? guard : guard + 1, margin);
     }
   };
-  const auto turned = [](const AxisMargin& margin) {
-    return AxisMargin{-margin.constant, -margin.by_angle, -margin.by_rate, -margin.by_demand,
-                      -margin.by_command};
+  const int side = limit_side_;
+  // Keeps a drive outward at a limit; `guard` watches the upper limit, and the next the lower one.
+  const auto outward = [&](int guard, const AxisMargin& drive) {
+    use(side > 0 ? guard : guard + 1,
+        AxisMargin{side * drive.constant, side * drive.by_angle, side * drive.by_rate,
+                   side * drive.by_demand, side * drive.by_command});
   };
   const double most = servo_.acceleration_limit;
   switch (motion_) {
@@ -224,39 +213,26 @@ void ServoAxis::for_each_margin(Use use) const {
     case Motion::free:
       if (!servo_.time_constant) below(acceleration_up, most, &AxisMargin::by_demand);
       break;
-    case Motion::accelerating_up:
-      use(acceleration_up, AxisMargin{-most, 0, 0, 1, 0});
+    case Motion::accelerating:
+      outward(acceleration_up, {-side * most, 0, 0, 1, 0});
       break;
-    case Motion::accelerating_down:
-      use(acceleration_down, AxisMargin{-most, 0, 0, -1, 0});
+    case Motion::at_rate:
+      outward(rate_up, push());
       break;
-    case Motion::rate_up:
-      use(rate_up, push());
-      break;
-    case Motion::rate_down:
-      use(rate_down, turned(push()));
-      break;
-    case Motion::stop_up:
-      use(stop_up, push_at_stop());
-      break;
-    case Motion::stop_down:
-      use(stop_down, turned(push_at_stop()));
+    case Motion::at_stop:
+      outward(stop_up, push_at_stop());
       break;
   }
-  const bool limited =
-      motion_ == Motion::rate_up || motion_ == Motion::rate_down || motion_ == Motion::on_ramp;
-  const bool halted =
-      motion_ == Motion::stop_up || motion_ == Motion::stop_down || motion_ == Motion::on_ramp;
-  if (!limited && !halted) below(rate_up, servo_.rate_limit, &AxisMargin::by_rate);
+  const bool halted = motion_ == Motion::at_stop || motion_ == Motion::on_ramp;
+  if (motion_ != Motion::at_rate && !halted) {
+    below(rate_up, servo_.rate_limit, &AxisMargin::by_rate);
+  }
   if (!halted) below(stop_up, servo_.angle_limit, &AxisMargin::by_angle);
   switch (play_) {
     case Play::none:
       break;
-    case Play::up:
-      use(gap_up, AxisMargin{0, 0, 1, 0, 0});
-      break;
-    case Play::down:
-      use(gap_up, AxisMargin{0, 0, -1, 0, 0});
+    case Play::contact:
+      use(gap_up, AxisMargin{0, 0, static_cast<double>(contact_side_)});
       break;
     case Play::gap:
       below(gap_up, servo_.backlash / 2, &AxisMargin::by_angle, servo_.offset - plane_);

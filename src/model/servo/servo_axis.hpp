@@ -29,10 +29,6 @@ struct RampPart {
   double level = 0;    // rad, or rad/s
 };
 
-struct RampLimits {
-  double rate = 0, acceleration = 0;  // rad/s, rad/s^2
-};
-
 // Angles closer than this are the same. It exceeds their rounding; moves so small take no time.
 constexpr double same_angle = 1e-9;  // rad
 
@@ -54,8 +50,8 @@ inline RampPart part_at_rate(double& angle, double& rate, double target) {
 }
 
 // The part that begins with this motion. Sets the motion to the target where it arrives there.
-inline RampPart next_part(double& angle, double& rate, double target, const RampLimits& limits) {
-  const double most = limits.acceleration;
+inline RampPart next_part(double& angle, double& rate, double target, const RigServo& servo) {
+  const double most = servo.acceleration_limit;
   const double left = target - (angle + rate * std::abs(rate) / (2 * most));  // after a halt
   if (std::abs(left) <= same_angle && rate * rate <= 2 * most * same_angle) {
     angle = target;
@@ -72,12 +68,13 @@ inline RampPart next_part(double& angle, double& rate, double target, const Ramp
     part.rising = rate < 0;
     return part;
   }
-  constexpr double at_limit = 1 - 1e-11;                       // limits are reached up to rounding
-  const double halt = limits.rate * limits.rate / (2 * most);  // the way from the limit to rest
+  constexpr double at_limit = 1 - 1e-11;  // limits are reached up to rounding
+  const double halt =
+      servo.rate_limit * servo.rate_limit / (2 * most);  // the way from the limit to rest
   part.until = RampPart::Until::angle;
   part.rising = way > 0;
-  if (speed >= limits.rate * at_limit) {
-    rate = way * limits.rate;
+  if (speed >= servo.rate_limit * at_limit) {
+    rate = way * servo.rate_limit;
     part.level = target - way * halt;
     return part;
   }
@@ -87,7 +84,7 @@ inline RampPart next_part(double& angle, double& rate, double target, const Ramp
   const double to_limit = halt - speed * speed / (2 * most);
   if (way * (part.level - angle) > to_limit) {
     part.until = RampPart::Until::rate;
-    part.level = way * limits.rate;
+    part.level = way * servo.rate_limit;
   }
   return part;
 }
@@ -196,17 +193,9 @@ class ServoAxis {
   void scales(double* values) const;
 
  private:
-  enum class Motion {
-    free,
-    on_ramp,  // of a stepper
-    accelerating_up,
-    accelerating_down,
-    rate_up,
-    rate_down,
-    stop_up,
-    stop_down
-  };
-  enum class Play { none, up, down, gap };
+  // Free, on a stepper's ramp, or at one of the limits.
+  enum class Motion { free, on_ramp, accelerating, at_rate, at_stop };
+  enum class Play { none, contact, gap };
 
   void plan_ramp(AxisState& state);
   void settle_stall(const AxisState& state, AxisMode& mode);
@@ -216,7 +205,7 @@ class ServoAxis {
   // Calls use(guard, margin) for each active guard.
   template <class Use>
   void for_each_margin(Use use) const;
-  [[nodiscard]] Motion choose(AxisState& state) const;
+  [[nodiscard]] Motion choose(AxisState& state);
   void settle_backlash(const AxisState& state, AxisMode& mode);
   [[nodiscard]] double drive(const AxisState& state) const;
   // Drive of a servo further outward at its rate limit: an acceleration; for first order, the rate
@@ -243,6 +232,7 @@ class ServoAxis {
   ServoResponse response_;
   double root_;  // of the stiffness in free motion, rad/s
   Motion motion_ = Motion::free;
+  int limit_side_ = 1;  // 1 or -1: the motion is at the upper or lower limit
   RampPart ramp_;
   // Of a stepper that stalls: its driver's angle then, that at which the shaft follows again, and
   // the direction in which the driver comes there; 0: not before the next target.
@@ -251,6 +241,7 @@ class ServoAxis {
   double lost_ = 0;  // the driver's angle less the field's while the shaft follows, rad
   Field field_;
   Play play_ = Play::none;
+  int contact_side_ = 1;  // 1 or -1: the servo pushes the plane up or down
   bool started_ = false;
   double plane_ = 0;  // angle in the gap, rad
 };

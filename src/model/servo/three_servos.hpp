@@ -34,6 +34,12 @@ struct ThreeServos : LegEquations {
   // The first and second derivatives of p, q and z by the servos' angles, at home.
   double home_slopes[3][3] = {}, home_bends[3][3][3] = {};
 
+  void set_offset(int axis, double angle) {
+    offset[axis] = angle;
+    cos_offset[axis] = std::cos(angle);
+    sin_offset[axis] = std::sin(angle);
+  }
+
   // The directions of the horns at these servo angles. wave(angle) gives sine and cosine.
   template <class Real, class Wave>
   void directions(const Real (&servo)[3], Real (&sine)[3], Real (&cosine)[3], Wave wave) const {

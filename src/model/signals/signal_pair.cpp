@@ -52,11 +52,10 @@ void SignalPair::add(std::size_t component, const Profile& profile) {
   });
 }
 
-template <class Counts>
-std::vector<double> SignalPair::knots_of(Counts counts) const {
+std::vector<double> SignalPair::knots(bool with_jumps) const {
   std::vector<double> times;
   for (const Spline& spline : splines_) {
-    if (!counts(spline)) continue;
+    if (with_jumps && !spline.jumps()) continue;
     times.insert(times.end(), spline.knots().begin(), spline.knots().end());
   }
   std::sort(times.begin(), times.end());
@@ -72,14 +71,6 @@ bool SignalPair::is_zero(std::size_t component) const {
   return start_[component] == 0 && rate_[component] == 0 &&
          std::all_of(harmonics_.begin(), harmonics_.end(), silent) &&
          std::all_of(tables_.begin(), tables_.end(), elsewhere);
-}
-
-std::vector<double> SignalPair::knots() const {
-  return knots_of([](const Spline&) { return true; });
-}
-
-std::vector<double> SignalPair::jumps() const {
-  return knots_of([](const Spline& spline) { return spline.jumps(); });
 }
 
 double SignalPair::highest_frequency() const {

@@ -129,10 +129,9 @@ class SignalPair {
   // Whether the component is zero at all times.
   [[nodiscard]] bool is_zero(std::size_t component) const;
 
-  // Times at which a derivative or a value jumps: the knots of the splines, sorted.
-  [[nodiscard]] std::vector<double> knots() const;
-  // The knots at which a value jumps.
-  [[nodiscard]] std::vector<double> jumps() const;
+  // Times at which a derivative or a value jumps: the knots of the splines, sorted. `with_jumps`:
+  // only those at which a value jumps.
+  [[nodiscard]] std::vector<double> knots(bool with_jumps = false) const;
 
   // The highest frequency of a sinusoid or another formula, rad/s; 0 if there are none.
   [[nodiscard]] double highest_frequency() const;
@@ -158,9 +157,6 @@ class SignalPair {
   }
 
  private:
-  template <class Counts>
-  [[nodiscard]] std::vector<double> knots_of(Counts counts) const;
-
   double start_[2] = {0, 0}, rate_[2] = {0, 0};
   std::vector<Harmonic> harmonics_;
   std::vector<Spline> splines_;

@@ -129,13 +129,8 @@ template <class Time>
   return in.of;
 }
 
-// No push, at no cost.
-struct NoPush {
-  static constexpr bool pushes = false;
-};
 template <class Signals>
 struct Push {
-  static constexpr bool pushes = true;
   Signals on{};  // along the plane's axes, N
 
   template <class Time>
@@ -143,6 +138,21 @@ struct Push {
     const auto now = on.at(t);
     return {of, {now[0].value, now[1].value}};
   }
+  [[nodiscard]] Pair at(double t) const {
+    const auto now = on.at(t);
+    return {now[0].value, now[1].value};
+  }
+  [[nodiscard]] Push<SignalView> view() const { return {on.view()}; }
+};
+// No push, at no cost.
+struct NoPush {
+  template <class Time>
+  [[nodiscard]] std::array<Jet<Time>, 2> with(const std::array<Jet<Time>, 2>& of,
+                                              const Time& /*t*/) const {
+    return of;
+  }
+  [[nodiscard]] Pair at(double /*t*/) const { return {0, 0}; }
+  [[nodiscard]] NoPush view() const { return {}; }
 };
 
 // A push on the ball's center acts like gravity: (M62).
@@ -184,24 +194,11 @@ class CoupledGiven {
 
   template <class Time>
   [[nodiscard]] auto inputs(const Time& t) const {
-    if constexpr (pushes) {
-      return push.with(motion_.at(t), t);
-    } else {
-      return motion_.at(t);
-    }
-  }
-
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
+    return push.with(motion_.at(t), t);
   }
 
   [[nodiscard]] CoupledGiven<SignalView, pushes> view() const {
-    if constexpr (pushes) {
-      return {parts, motion_.view(), {push.on.view()}};
-    } else {
-      return {parts, motion_.view()};
-    }
+    return {parts, motion_.view(), push.view()};
   }
 
   template <class In, class Real>
@@ -227,17 +224,17 @@ class CoupledGiven {
     Cause<Real> cause = of.cause(plane, ball, now.p);
     add_push(of, inputs, cause);
     for (int i = 0; i < 3; ++i) {
-      cause.omega_dot[i] = cause.omega_dot[i] + plane.phi_axis[i] * axis[0].acceleration +
-                           plane.theta_axis[i] * axis[1].acceleration;
+      cause.omega_dot[i] = cause.omega_dot[i] + plane.axis[0][i] * axis[0].acceleration +
+                           plane.axis[1][i] * axis[1].acceleration;
     }
     now.answer = of.answer(parts.contact, along, ball, cause);
     now.lost_power = of.lost_power(parts.contact, now.answer, ball, now.p, now.slip);
     now.work_power = Real(0.0);
     for (int i = 0; i < 2; ++i) {
-      const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
       now.acceleration[i] = axis[i].acceleration;
       now.asked[i] = now.needed[i] = Real(0.0);
-      now.given[i] = of.moment(about, cause, now.answer, ball) + of.own_moment(about, plane);
+      now.given[i] =
+          of.moment(plane.axis[i], cause, now.answer, ball) + of.own_moment(plane.axis[i], plane);
       now.work_power = now.work_power + now.given[i] * axis[i].rate;
     }
     return now;
@@ -259,10 +256,7 @@ class CoupledGiven {
     const RigExtras& rig = with.rig;
     Sample sample;
     sample.t = t;
-    if constexpr (pushes) {
-      const auto now = push.on.at(t);
-      sample.push = {now[0].value, now[1].value};
-    }
+    sample.push = push.at(t);
     sample.ball = ball_motion<Shape::full>(Layout::unpack(z), parts.ball.r);
     sample.gimbal = {rig.angle[0], rig.angle[1],        rig.rate[0],
                      rig.rate[1],  rig.acceleration[0], rig.acceleration[1]};
@@ -285,7 +279,6 @@ struct CoupledLayout : ServoLayout<servos> {
                        work = lost + 1;
   static constexpr int states = work + 1;
 };
-using CoupledLoopLayout = CoupledLayout<2>;
 
 // The drive of a CoupledLoop's gimbal.
 enum class GimbalBy {
@@ -309,15 +302,7 @@ class CoupledLoop {
   static constexpr bool open_loop = false;
   static constexpr bool papers_rig = false;
   static constexpr bool steep = true;  // near rest, where directions turn fast
-  static constexpr auto motions = [] {
-    Motions<11 + servos> all{};
-    int next = 0;
-    for (const Motion& motion : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = motion;
-    for (int i = 0; i < servos; ++i) all.of[next++] = {Layout::angle + i, Layout::rate + i};
-    all.of[next++] = {-1, 4};
-    for (int i = Layout::integral; i < size; ++i) all.of[next++] = {-1, i};
-    return all;
-  }();
+  static constexpr auto motions = Layout::template motions_of<size>();
 
   CoupledLoop(const CoupledParts& of, GimbalBy moved_by, const MotorLaw& law,
               const RigLoop<true, Signals, Link>& control, PushOf<Signals> pushed = {})
@@ -332,23 +317,11 @@ class CoupledLoop {
 
   template <class Time>
   [[nodiscard]] auto inputs(const Time& t) const {
-    const auto of = by == GimbalBy::given_torques ? loop.reference().at(t) : loop.inputs(t);
-    if constexpr (pushes) {
-      return push.with(of, t);
-    } else {
-      return of;
-    }
-  }
-
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
+    return push.with(by == GimbalBy::given_torques ? loop.reference().at(t) : loop.inputs(t), t);
   }
 
   [[nodiscard]] CoupledLoop<SignalView, Link> view() const {
-    typename CoupledLoop<SignalView, Link>::template PushOf<SignalView> pushed;
-    if constexpr (pushes) pushed.on = push.on.view();
-    CoupledLoop<SignalView, Link> view{parts, by, motor, loop.view(), pushed};
+    CoupledLoop<SignalView, Link> view{parts, by, motor, loop.view(), push.view()};
     view.motors[0] = motors[0];
     view.motors[1] = motors[1];
     view.integrates_ = integrates_;
@@ -421,10 +394,7 @@ class CoupledLoop {
     Sample sample = loop.sample(t, z, with.rig);
     if (by == GimbalBy::given_torques) sample.reference = {0, 0};
     sample.coupled = with.motion;
-    if constexpr (pushes) {
-      const auto now = push.on.at(t);
-      sample.push = {now[0].value, now[1].value};
-    }
+    sample.push = push.at(t);
     return sample;
   }
   // The sample in the present mode, for monitors: with the distance from a dead point.
@@ -449,12 +419,11 @@ class CoupledLoop {
             const Put& put) const {
     const CoupledBall& of = parts.ball;
     for (int j = 0; j < 2; ++j) {
-      const Cause<Real> cause = CoupledBall::of_axis(j == 0 ? plane.phi_axis : plane.theta_axis);
+      const Cause<Real> cause = CoupledBall::of_axis(plane.axis[j]);
       const Answer<Real> answer = of.answer(parts.contact, along, ball, cause);
       for (int i = 0; i < 2; ++i) {
-        const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
         const double own = i != j ? 0.0 : of.body.rotor + (i == 0 ? of.body.ring : 0.0);
-        put(i, j, of.moment(about, cause, answer, ball) + Real(own));
+        put(i, j, of.moment(plane.axis[i], cause, answer, ball) + Real(own));
       }
     }
   }
@@ -490,9 +459,7 @@ class CoupledLoop {
     Cause<Real> cause = of.cause(plane, ball, now.p);
     add_push(of, inputs, cause);
     Real own[2];
-    for (int i = 0; i < 2; ++i) {
-      own[i] = of.own_moment(i == 0 ? plane.phi_axis : plane.theta_axis, plane);
-    }
+    for (int i = 0; i < 2; ++i) own[i] = of.own_moment(plane.axis[i], plane);
     Real friction[2] = {Real(0.0), Real(0.0)};
     if (driven) {
       const Answer<Real> rest = of.answer(parts.contact, along, ball, cause);
@@ -505,8 +472,7 @@ class CoupledLoop {
                        motor.from_rate * rate + motor.from_integral * z[Layout::motor + i];
         now.given[i] = mode.factor * now.asked[i] + mode.by_rate * rate + Real(mode.set);
         friction[i] = motor.viscous * rate + Real(motor.friction * mode.opposed);
-        left[i] = now.given[i] - friction[i] -
-                  of.moment(i == 0 ? plane.phi_axis : plane.theta_axis, cause, rest, ball) - own[i];
+        left[i] = now.given[i] - friction[i] - of.moment(plane.axis[i], cause, rest, ball) - own[i];
       }
       // An axis that friction holds has the equation phi'' = 0.
       Real row[2][2], right[2];
@@ -531,15 +497,14 @@ class CoupledLoop {
       }
     }
     for (int i = 0; i < 3; ++i) {
-      cause.omega_dot[i] = cause.omega_dot[i] + plane.phi_axis[i] * axes[0].acceleration +
-                           plane.theta_axis[i] * axes[1].acceleration;
+      cause.omega_dot[i] = cause.omega_dot[i] + plane.axis[0][i] * axes[0].acceleration +
+                           plane.axis[1][i] * axes[1].acceleration;
     }
     now.answer = of.answer(parts.contact, along, ball, cause);
     now.lost_power = of.lost_power(parts.contact, now.answer, ball, now.p, now.slip);
     now.work_power = Real(0.0);
     for (int i = 0; i < 2; ++i) {
-      const auto& about = i == 0 ? plane.phi_axis : plane.theta_axis;
-      if (!driven) now.given[i] = of.moment(about, cause, now.answer, ball) + own[i];
+      if (!driven) now.given[i] = of.moment(plane.axis[i], cause, now.answer, ball) + own[i];
       now.lost_power = now.lost_power + motors[i].free * (friction[i] * z[Layout::rate + i]);
       now.work_power = now.work_power + motors[i].free * (now.given[i] * axes[i].rate);
     }
@@ -562,5 +527,18 @@ template <class Any>
 inline constexpr bool is_coupled_loop = false;
 template <class Signals, class Link>
 inline constexpr bool is_coupled_loop<CoupledLoop<Signals, Link>> = true;
+
+// The RigLoop that a system is or has; null if it has none.
+template <class Any>
+[[nodiscard]] auto* rig_loop_of(Any& any) {
+  using System = std::remove_const_t<Any>;
+  if constexpr (is_coupled_loop<System>) {
+    return &any.loop;
+  } else if constexpr (is_rig<System>) {
+    return &any;
+  } else {
+    return static_cast<RigLoop<>*>(nullptr);
+  }
+}
 
 }  // namespace bbsim::model

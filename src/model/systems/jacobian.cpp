@@ -21,7 +21,7 @@ template <class System>
   constexpr int n = System::size;
   simd::WithGradient<n> state[n], rate[n];
   for (int i = 0; i < n; ++i) state[i] = simd::WithGradient<n>::variable(z[i], i);
-  system.derivative_of(system.inputs(t), state, rate);
+  derivative(system, t, state, rate);
   JacobianOf<System> matrix;
   for (int i = 0; i < n; ++i) matrix.row(i) = rate[i].gradient.transpose();
   return matrix;

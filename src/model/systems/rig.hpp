@@ -4,6 +4,7 @@
 // The data of a rig that its right-hand side does not hold: switches and sampling.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,18 +65,13 @@ struct Rig {
   std::optional<SampledLoop> sampled;
   OnEvent steps_lost = OnEvent::note;
 
-  [[nodiscard]] bool rings() const {
-    bool any = false;
-    for (const RigServo& axis : servo) any = any || axis.rings;
-    return any;
-  }
+  [[nodiscard]] bool rings() const { return std::ranges::any_of(servo, &RigServo::rings); }
   [[nodiscard]] bool limits_commands() const {
     return command_limit[0].binds() || command_limit[1].binds();
   }
   [[nodiscard]] bool switches() const {
-    bool any = limits_commands() || mechanism.has_pieces();
-    for (const RigServo& axis : servo) any = any || axis.switches();
-    return any;
+    return limits_commands() || mechanism.has_pieces() ||
+           std::ranges::any_of(servo, &RigServo::switches);
   }
 };
 

@@ -90,6 +90,18 @@ template <int servos>
 struct ServoLayout : BallLayout<Shape::full> {
   static constexpr int angle = BallLayout<Shape::full>::size, rate = angle + servos,
                        integral = rate + servos;
+
+  // All velocities of a system of this size: the states from `integral` on have no velocity.
+  template <int size>
+  static constexpr auto motions_of() {
+    Motions<3 + servos + size - integral> all{};
+    int next = 0;
+    for (const Motion& motion : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = motion;
+    for (int i = 0; i < servos; ++i) all.of[next++] = {angle + i, rate + i};
+    all.of[next++] = {-1, 4};
+    for (int i = integral; i < size; ++i) all.of[next++] = {-1, i};
+    return all;
+  }
 };
 using RigLayout = ServoLayout<2>;
 
@@ -122,15 +134,7 @@ class RigLoop {
   static constexpr int size = Layout::integral + (integrates ? 2 : 0);
   static constexpr bool open_loop = false;
   static constexpr bool papers_rig = false;
-  static constexpr auto motions = [] {
-    Motions<3 + servos + (integrates ? 2 : 0)> all{};
-    int next = 0;
-    for (const Motion& motion : {Motion{0, 2}, Motion{1, 3}}) all.of[next++] = motion;
-    for (int i = 0; i < servos; ++i) all.of[next++] = {Layout::angle + i, Layout::rate + i};
-    all.of[next++] = {-1, 4};
-    for (int i = Layout::integral; i < size; ++i) all.of[next++] = {-1, i};
-    return all;
-  }();
+  static constexpr auto motions = Layout::template motions_of<size>();
 
   RigLoop(double radius, double gravity, const GeneralRolling& rolling, const ControlLaw& law,
           const ServoResponses& servo, Signals reference, const RigMode& present = {},
@@ -156,11 +160,6 @@ class RigLoop {
     if (mode.rings) return {Jet<Time>{t, Time(1.0), Time(0.0)}, nothing};
     if (law_.kind == LawKind::held) return {nothing, nothing};
     return reference_.at(t);
-  }
-
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
   }
 
   [[nodiscard]] RigLoop<integrates, SignalView, Link> view() const {
@@ -248,18 +247,6 @@ class RigLoop {
     }
   }
 
-  // The rates of phi and theta, rad/s.
-  [[nodiscard]] std::array<double, 2> plane_rates(const double* z) const {
-    if constexpr (Link::direct) {
-      return {mode.axis[0].ratio * z[Layout::rate], mode.axis[1].ratio * z[Layout::rate + 1]};
-    } else {
-      const double none[servos] = {};
-      GimbalAngle<double> axis[2];
-      planes(z, none, axis);
-      return {axis[0].rate, axis[1].rate};
-    }
-  }
-
   // The angles of the horns, after backlash, rad.
   void horns(const double* z, double (&horn)[servos]) const {
     for (int i = 0; i < servos; ++i) {
@@ -301,6 +288,14 @@ class RigLoop {
       const double angle = z[Layout::angle + i];
       extras.lag[i] = of.rings ? of.counted(t).value - angle : (1 - of.ratio) * angle - of.offset;
     }
+  }
+
+  // The plane's angles and rates.
+  [[nodiscard]] RigExtras plane(const double* z) const {
+    const double none[servos] = {};
+    RigExtras plane{};
+    fill(z, none, plane);
+    return plane;
   }
 
   // Computes the plane's motion from the servos' accelerations.

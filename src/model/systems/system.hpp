@@ -5,9 +5,9 @@
 //
 // A system is a value with these members:
 //     size                          the number of states, at compile time
-//     derivative(t, z, dz)          z' = f(t, z), for any number types of time and state
-//     inputs(t)                     the part of f that depends only on time
-//     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z)
+//     inputs(t)                     the part of z' = f(t, z) that depends only on time
+//     derivative_of(inputs, z, dz)  the rest: f(t, z) = derivative_of(inputs(t), z), for any number
+//                                   types of time and state
 //     motions                       which states are the velocities of which other states
 //     view()                        the system in plain memory, for code of one instruction set
 //     sample(t, z, detail)          the instant in the paper's symbols
@@ -26,6 +26,12 @@
 
 namespace bbsim::model {
 
+// z' = f(t, z) of a system.
+template <class System, class Time, class Real>
+void derivative(const System& system, const Time& t, const Real* z, Real* dz) {
+  system.derivative_of(system.inputs(t), z, dz);
+}
+
 // The freedom of the ball: anywhere on the plane, or along one axis if symmetry keeps the other
 // coordinate, the spin and the other gimbal angle at zero.
 enum class Shape { full, along_x, along_y };
@@ -43,28 +49,35 @@ struct Motions {
   Motion of[velocities];
 };
 
-// The ball's equation of motion, a parameter of the systems below: (27), or a simpler equation for
-// comparison (study/verify.cpp).
-struct Equation27 {
-  template <class Real, class Phi, class Theta, class Ball, class Scalar>
-  static Real x(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
-                const Scalar& g) {
-    return x_acceleration<Real>(phi, theta, ball, r, g);
+// Converts between a solver's state vector and the ball's fields. Here along one axis.
+template <Shape shape>
+struct BallLayout {
+  static constexpr bool along_x = shape == Shape::along_x;
+  static constexpr int size = 2;
+  static constexpr std::array<std::string_view, 2> names{along_x ? "x" : "y",
+                                                         along_x ? "vx" : "vy"};
+  static constexpr Motions<1> motions{{{0, 1}}};
+
+  template <class Real>
+  static auto unpack(const Real* z) {
+    if constexpr (along_x) {
+      return RollingState<Real, Zero, Zero>{z[0], {}, z[1], {}, {}};
+    } else {
+      return RollingState<Zero, Real, Zero>{{}, z[0], {}, z[1], {}};
+    }
   }
-  template <class Real, class Phi, class Theta, class Ball, class Scalar>
-  static Real y(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r,
-                const Scalar& g) {
-    return y_acceleration<Real>(phi, theta, ball, r, g);
-  }
-  template <class Real, class Phi, class Theta, class Ball, class Scalar>
-  static Real u(const Phi& phi, const Theta& theta, const Ball& ball, const Scalar& r) {
-    return u_acceleration<Real>(phi, theta, ball, r);
+  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
+  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
+                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
+    if constexpr (along_x) {
+      dz[0] = ball.x_dot;
+      dz[1] = equation.template x<Real>(phi, theta, ball, r, g);
+    } else {
+      dz[0] = ball.y_dot;
+      dz[1] = equation.template y<Real>(phi, theta, ball, r, g);
+    }
   }
 };
-
-// Converts between a solver's state vector and the ball's fields.
-template <Shape shape>
-struct BallLayout;
 
 template <>
 struct BallLayout<Shape::full> {
@@ -91,42 +104,6 @@ struct BallLayout<Shape::full> {
       dz[3] = equation.template y<Real>(phi, theta, ball, r, g);
       dz[4] = equation.template u<Real>(phi, theta, ball, r);
     }
-  }
-};
-
-template <>
-struct BallLayout<Shape::along_x> {
-  static constexpr int size = 2;
-  static constexpr std::array<std::string_view, 2> names{"x", "vx"};
-  static constexpr Motions<1> motions{{{0, 1}}};
-
-  template <class Real>
-  static RollingState<Real, Zero, Zero> unpack(const Real* z) {
-    return {z[0], {}, z[1], {}, {}};
-  }
-  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
-  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
-                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
-    dz[0] = ball.x_dot;
-    dz[1] = equation.template x<Real>(phi, theta, ball, r, g);
-  }
-};
-
-template <>
-struct BallLayout<Shape::along_y> {
-  static constexpr int size = 2;
-  static constexpr std::array<std::string_view, 2> names{"y", "vy"};
-  static constexpr Motions<1> motions{{{0, 1}}};
-
-  template <class Real>
-  static RollingState<Zero, Real, Zero> unpack(const Real* z) {
-    return {{}, z[0], {}, z[1], {}};
-  }
-  template <class Real, class Equation, class Phi, class Theta, class Ball, class Scalar>
-  static void derivative(const Equation& equation, const Phi& phi, const Theta& theta,
-                         const Ball& ball, const Scalar& r, const Scalar& g, Real* dz) {
-    dz[0] = ball.y_dot;
-    dz[1] = equation.template y<Real>(phi, theta, ball, r, g);
   }
 };
 
@@ -165,11 +142,6 @@ class OpenLoop {
   template <class Inputs, class Real>
   void derivative_of(const Inputs& in, const Real* z, Real* dz) const {
     Layout::template derivative<Real>(equation_, in.phi, in.theta, Layout::unpack(z), r_, g_, dz);
-  }
-
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
   }
 
   [[nodiscard]] OpenLoop<shape, SignalView, Equation> view() const {
@@ -280,11 +252,6 @@ class ClosedLoop {
     return reference_.at(t);
   }
 
-  template <class Time, class Real>
-  void derivative(const Time& t, const Real* z, Real* dz) const {
-    derivative_of(inputs(t), z, dz);
-  }
-
   [[nodiscard]] ClosedLoop<shape, drives, SignalView, Equation> view() const {
     return {r_, g_, gains_, servo_, reference_.view()};
   }
@@ -297,27 +264,25 @@ class ClosedLoop {
 
   template <class Time, class Real>
   void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, Real* dz) const {
-    const auto ball = Layout::unpack(z);
-    const Real* angles = z + Layout::size;  // [phi, theta,] then their rates
-    const auto phi = axis<0, Real>(ball, reference, angles);
-    const auto theta = axis<1, Real>(ball, reference, angles);
-    Layout::template derivative<Real>(equation_, phi, theta, ball, r_, g_, dz);
-    put_axes(phi, theta, angles, dz);
+    derivative_of(reference, z, nullptr, dz);
   }
 
   // The same, except that the ball's accelerations use `turning`, the accelerations of the axes
   // (rad/s^2), instead of the servos' own. For integrators in which these are unknowns: computed
   // from a state, a stiff servo's acceleration is a difference of large numbers.
-  template <class Time, class Real>
-  void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z, const Real* turning,
-                     Real* dz) const {
+  template <class Time, class Real, class Turning>
+  void derivative_of(const std::array<Jet<Time>, 2>& reference, const Real* z,
+                     const Turning& turning, Real* dz) const {
     const auto ball = Layout::unpack(z);
-    const Real* angles = z + Layout::size;
+    const Real* angles = z + Layout::size;  // [phi, theta,] then their rates
     const auto phi = axis<0, Real>(ball, reference, angles);
     const auto theta = axis<1, Real>(ball, reference, angles);
     Layout::template derivative<Real>(equation_, turned<0>(phi, turning), turned<1>(theta, turning),
                                       ball, r_, g_, dz);
-    put_axes(phi, theta, angles, dz);
+    Real* const angles_dot = dz + Layout::size;
+    for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
+    if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
+    if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
   }
 
   [[nodiscard]] Sample sample(double t, const double* z, Detail detail = Detail::all) const {
@@ -378,17 +343,9 @@ class ClosedLoop {
     }
   }
 
-  template <class Phi, class Theta, class Real>
-  static void put_axes(const Phi& phi, const Theta& theta, const Real* angles, Real* dz) {
-    Real* const angles_dot = dz + Layout::size;
-    for (int i = 0; i < axes; ++i) angles_dot[i] = angles[axes + i];
-    if constexpr (phi_moves(shape)) angles_dot[axes] = phi.acceleration;
-    if constexpr (theta_moves(shape)) angles_dot[2 * axes - 1] = theta.acceleration;
-  }
-
-  template <std::size_t row, class Axis, class Real>
-  static auto turned(const Axis& of, const Real* turning) {
-    if constexpr (std::is_same_v<Axis, LockedAngle>) {
+  template <std::size_t row, class Axis, class Turning>
+  static auto turned(const Axis& of, const Turning& turning) {
+    if constexpr (std::is_same_v<Axis, LockedAngle> || std::is_null_pointer_v<Turning>) {
       return of;
     } else {
       return Axis{of.sin, of.cos, of.rate, turning[row == 0 ? 0 : axes - 1]};

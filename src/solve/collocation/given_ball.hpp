@@ -31,9 +31,9 @@ struct GivenBall {
                                                      Ball::variable(4)};
     Ball of[3];
     if constexpr (papers) {
-      of[0] = model::x_acceleration<Ball>(phi, theta, ball, P(r), P(g));
-      of[1] = model::y_acceleration<Ball>(phi, theta, ball, P(r), P(g));
-      of[2] = model::u_acceleration<Ball>(phi, theta, ball, P(r));
+      of[0] = model::Equation27::x<Ball>(phi, theta, ball, P(r), P(g));
+      of[1] = model::Equation27::y<Ball>(phi, theta, ball, P(r), P(g));
+      of[2] = model::Equation27::u<Ball>(phi, theta, ball, P(r));
     } else {
       const auto all = rolling.template rates<Ball>(phi, theta, ball, r, g);
       of[0] = all.x;

@@ -41,7 +41,7 @@ template <class System>
 int derivative(sunrealtype t, N_Vector z, N_Vector dz, void* user_data) {
   const auto& system = *static_cast<const System*>(equations_in(user_data).system);
   double* rate = N_VGetArrayPointer(dz);
-  system.derivative(t, N_VGetArrayPointer(z), rate);
+  model::derivative(system, t, N_VGetArrayPointer(z), rate);
   const auto finite = [](double value) { return std::isfinite(value); };
   return std::all_of(rate, rate + System::size, finite) ? 0 : recoverable;
 }

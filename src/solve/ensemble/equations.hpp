@@ -148,9 +148,9 @@ struct Equations {
     const auto ball = ball_of(q, v);
     const model::GimbalAngle<Real> first{phi_at.sin, phi_at.cos, v[phi], turning[0]};
     const model::GimbalAngle<Real> second{theta_at.sin, theta_at.cos, v[theta], turning[1]};
-    k[0] = model::x_acceleration<Real>(first, second, ball, scene.radius, scene.gravity);
-    k[1] = model::y_acceleration<Real>(first, second, ball, scene.radius, scene.gravity);
-    k[2] = model::u_acceleration<Real>(first, second, ball, scene.radius);
+    k[0] = model::Equation27::x<Real>(first, second, ball, scene.radius, scene.gravity);
+    k[1] = model::Equation27::y<Real>(first, second, ball, scene.radius, scene.gravity);
+    k[2] = model::Equation27::u<Real>(first, second, ball, scene.radius);
   }
 
   // Derivatives of the accelerations: the gimbal's and the ball's by the states, and the ball's by

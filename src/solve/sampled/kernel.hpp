@@ -70,7 +70,7 @@ struct alignas(64) PlateMotion {
 struct Scene {
   double radius, mass, gravity;
   model::GeneralRolling rolling;
-  model::Turned turned;
+  model::GimbalBody body;
   double rtol, atol;
   bool gamma;                // whether the integral of u is under error control too
   double friction;           // friction coefficient up to which the ball rolls; 0: not monitored

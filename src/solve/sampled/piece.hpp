@@ -298,7 +298,7 @@ struct Kernel {
       const model::Vector3<P> contact{ball.x, ball.y, P(rolling.height)};
       const auto of_ball = model::about_axes(plane, model::cross(contact, by_mass));
       const auto of_plate =
-          model::plate_torques(plane, axis[0], axis[1], scene.turned, scene.gravity);
+          model::plate_torques(plane, axis[0], axis[1], scene.body, scene.gravity);
       const P phi = P(scene.mass) * of_ball.phi + of_plate.phi;
       const P theta = P(scene.mass) * of_ball.theta + of_plate.theta;
       take(Quantity::torque_phi, phi);

@@ -326,7 +326,7 @@ std::optional<Bounds> HeldStepper::bounds(Bounded column, const model::BallConst
     loads_of_ = &constants;
     scene_.loads = true;
     scene_.mass = constants.mass;
-    scene_.turned = model::turned_by_motors(constants);
+    scene_.body = constants.body;
     evaluated_ = false;
   } else if (!is_load && !scene_.sizes) {
     scene_.sizes = true;
