@@ -37,7 +37,7 @@ SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
   state_ = std::make_unique<State>(std::move(request));
   state_->request.scenario.controller->own->by =
       ControllerFactory{"commands from outside", [state = state_.get()](const Scenario&) {
-                          // The run does not own its state, in which it is.
+                          // Without ownership: the state holds the run.
                           return std::shared_ptr<State>(std::shared_ptr<void>(), state);
                         }};
   state_->fiber.resume();

@@ -84,6 +84,7 @@ std::shared_ptr<const LibraryFunctions> open(const std::string& path) {
 
 // The values of bbsim_setup::drives_acceleration, in the order of Drives.
 constexpr std::uint32_t c_drives[] = {1, 0, 2, 3, 4};
+static_assert(std::size(c_drives) == static_cast<std::size_t>(Drives::legs) + 1);
 
 // A setup for a library, valid as long as this object.
 class CSetup {

@@ -132,6 +132,12 @@ const Panel& panel_of(const Column& column, std::string_view unit) {
   }
   return *std::ranges::find(panels, name, &Panel::name);
 }
+static_assert([] {
+  const auto is_panel = [](std::string_view name) {
+    return std::ranges::find(panels, name, &Panel::name) != panels.end();
+  };
+  return is_panel("accelerations") && is_panel("given_torques") && is_panel("voltages");
+}());
 
 Missing missing(const Column& column, const Scenario& scenario) {
   switch (column.needs) {

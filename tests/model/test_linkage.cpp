@@ -251,7 +251,7 @@ TEST_CASE("linkages that cannot close, are in line at home or turn back are refu
   };
   CHECK_THAT(curve({-1, -0.5, 0.5, 1}, {0, -0.2, 0.1, 0.3}), Contains("turns back"));
   CHECK_THAT(curve({0.1, 0.2, 0.3, 0.4}, {0, 0.1, 0.2, 0.3}), Contains("home"));
-  CHECK_THROWS_WITH(make_three_servos({0.06, 0.09, 0.04, 0.02, 0.11}, Assumed::exact),
+  CHECK_THROWS_WITH(make_three_servos({{0.06, 0.09, 0.04, 0.02, 0.11}}, Assumed::exact),
                     Contains("do not close at home"));
 }
 

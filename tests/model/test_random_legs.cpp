@@ -70,7 +70,7 @@ ThreeServos random_legs(std::mt19937_64& draw) {
     const double horn = 0.02 + 0.04 * unit(draw), rod = 0.08 + 0.08 * unit(draw);
     const double height = 0.06 + 0.1 * unit(draw);
     try {
-      return model::make_three_servos({base, plate, horn, rod, height}, model::Assumed::exact);
+      return model::make_three_servos({{base, plate, horn, rod, height}}, model::Assumed::exact);
     } catch (const InputError&) {  // they do not close at home
     }
   }

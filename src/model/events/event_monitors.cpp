@@ -15,6 +15,7 @@ namespace bbsim::model {
 const char* Monitor::name() const {
   constexpr const char* of_kind[] = {"edge", "slip",        "lift_off",
                                      "tilt", "singularity", "dead_point"};
+  static_assert(std::size(of_kind) == static_cast<std::size_t>(Kind::dead_point) + 1);
   return of_kind[static_cast<int>(kind)];
 }
 

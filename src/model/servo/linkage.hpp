@@ -31,7 +31,8 @@ struct Turn {
   Real sin, cos, slope, bend;
 };
 
-// The angle of a direction, a vector of length 1. Each iteration reduces the error e to e^3 / 6.
+// The angle of a direction. Its sine and cosine are those of a vector of length 1. Each iteration
+// reduces the error e to e^3 / 6.
 template <class Real>
 [[nodiscard]] Real angle_of(const Real& sine, const Real& cosine) {
   Real angle = sine;
@@ -42,7 +43,7 @@ template <class Real>
   return angle;
 }
 [[nodiscard]] inline double angle_of(double sine, double cosine) {
-  return cosine > 0.7 ? std::asin(sine) : std::atan2(sine, cosine);  // the former is faster
+  return cosine > 0.7 ? std::asin(sine) : std::atan2(sine, cosine);  // the first is faster
 }
 
 // The middle of a range of angles. angle_of() returns angles within half a turn of it, so that

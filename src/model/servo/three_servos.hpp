@@ -124,7 +124,8 @@ struct ThreeServos : LegEquations {
       square = value_of(newton_step(sine, cosine, pose, better, there));
       pose = better;
     }
-    // Usually the last step is so short that it does not change the Jacobian.
+    // Usually the last step is so short that it does not change the Jacobian. All lanes take it
+    // again if one must, so its last digits, unlike the pose's, may depend on the other lanes.
     if (!plain ||
         !(largest_of(beyond(negligible, square, value_of(there.inverse.determinant))) <= 0)) {
       there = jacobian(pose, sine, cosine);

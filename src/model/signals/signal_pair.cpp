@@ -52,10 +52,10 @@ void SignalPair::add(std::size_t component, const Profile& profile) {
   });
 }
 
-std::vector<double> SignalPair::knots(bool with_jumps) const {
+std::vector<double> SignalPair::knots(bool only_jumps) const {
   std::vector<double> times;
   for (const Spline& spline : splines_) {
-    if (with_jumps && !spline.jumps()) continue;
+    if (only_jumps && !spline.jumps()) continue;
     times.insert(times.end(), spline.knots().begin(), spline.knots().end());
   }
   std::sort(times.begin(), times.end());

@@ -129,9 +129,9 @@ class SignalPair {
   // Whether the component is zero at all times.
   [[nodiscard]] bool is_zero(std::size_t component) const;
 
-  // Times at which a derivative or a value jumps: the knots of the splines, sorted. `with_jumps`:
+  // Times at which a derivative or a value jumps: the knots of the splines, sorted. `only_jumps`:
   // only those at which a value jumps.
-  [[nodiscard]] std::vector<double> knots(bool with_jumps = false) const;
+  [[nodiscard]] std::vector<double> knots(bool only_jumps = false) const;
 
   // The highest frequency of a sinusoid or another formula, rad/s; 0 if there are none.
   [[nodiscard]] double highest_frequency() const;

@@ -338,8 +338,7 @@ void LaneEngine::judge() {
       continue;
     }
     const bool needs = lane.steps.needs_growth(lane.step, arrives);
-    lane.steps.accept(lane.step, arrives,
-                      needs ? step_growth(static_cast<float>(error), nodes) : 1);
+    lane.steps.accept(lane.step, arrives, needs ? step_growth(error, nodes) : 1);
     step_.from_[l] = lane.time;
     const model::Model& model = lane.run->model();
     const double to = model.jumps_at(lane.until) ? model.just_before(lane.until) : lane.until;

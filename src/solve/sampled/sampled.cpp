@@ -152,8 +152,7 @@ std::optional<Failure> HeldStepper::step(double limit) {
     }
     ++statistics_.steps;
     const bool needs = steps_.needs_growth(step, arrives);
-    const auto error = static_cast<float>(attempt.error);
-    steps_.accept(step, arrives, needs ? step_growth(error, nodes) : 1);
+    steps_.accept(step, arrives, needs ? step_growth(attempt.error, nodes) : 1);
     finish();
     return {};
   }
