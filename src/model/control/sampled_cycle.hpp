@@ -58,8 +58,8 @@ struct SampledMap {
 // begins with it.
 class SampledCycle {
  public:
-  // Frames of a sensor that samples see at different ages make a cycle of several samples. With
-  // `of_equal_age`, each sample gets a frame of its own instead: only then is there one system.
+  // Samples that see a sensor's frames at different ages make a cycle of several samples. Under
+  // `of_equal_age` each sample gets its own frame, so one system describes all samples.
   enum class Frames { as_they_are, of_equal_age };
   // About a point, from the plant there and the rig's sampled controller.
   SampledCycle(const PlantDerivatives& plant, const Rig& rig, const LinearPoint& at, Frames frames);
