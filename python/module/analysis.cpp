@@ -41,8 +41,9 @@ std::vector<std::array<std::optional<double>, 3>> rig_limits(const Given& given)
   for (std::size_t axis = 0; axis < 2; ++axis) {
     if (scenario.controller) limits[axis][0] = scenario.controller->limit_of(axis);
     if (!scenario.gimbal.servo) continue;
-    limits[axis][1] = scenario.gimbal.servo_of(axis).angle_limit;
-    limits[axis][2] = scenario.gimbal.servo_of(axis).rate_limit;
+    const Servo& servo = scenario.gimbal.servo_of(axis);
+    if (servo.angle_limit < unlimited) limits[axis][1] = servo.angle_limit;
+    if (servo.rate_limit < unlimited) limits[axis][2] = servo.rate_limit;
   }
   return limits;
 }

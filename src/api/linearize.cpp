@@ -22,10 +22,6 @@ std::string three_digits(double value) {
   return rounded(value, 3);
 }
 
-std::string degrees(double angle) {
-  return three_digits(angle * 180 / std::numbers::pi) + " deg";
-}
-
 std::string at(double frequency) {
   return " at " + three_digits(frequency) + " rad/s";
 }
@@ -42,8 +38,8 @@ std::string text_of(const model::Margins& margins) {
     text += ", or down by " + three_digits(margins.reduction) + at(margins.reduction_at);
   }
   if (!std::isfinite(margins.phase)) return text + "; any phase and delay";
-  text += "; phase " + degrees(std::abs(margins.phase)) + (margins.phase < 0 ? " of lead" : "") +
-          at(margins.phase_at);
+  text += "; phase " + three_digits(std::abs(margins.phase) * 180 / std::numbers::pi) + " deg" +
+          (margins.phase < 0 ? " of lead" : "") + at(margins.phase_at);
   return text + "; delay " + three_digits(margins.delay) + " s";
 }
 

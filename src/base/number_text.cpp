@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numbers>
 #include <string_view>
 
 #include "base/error.hpp"
@@ -34,6 +35,27 @@ std::string rounded(double value, int digits) {
   const int before_point = static_cast<int>(std::log10(std::abs(kept))) + 1;
   std::snprintf(text, sizeof text, "%.*f", std::max(0, digits - before_point), kept);
   return text;
+}
+
+namespace {
+
+std::string in_unit(double value, double units, const char* unit, const char* si) {
+  return std::isfinite(value * units) ? short_number(value * units) + unit
+                                      : short_number(value) + si;
+}
+
+}  // namespace
+
+std::string degrees(double angle) {
+  return in_unit(angle, 180 / std::numbers::pi, " deg", " rad");
+}
+
+std::string milliseconds(double time) {
+  return in_unit(time, 1e3, " ms", " s");
+}
+
+std::string millimetres(double length) {
+  return in_unit(length, 1e3, " mm", " m");
 }
 
 bool is_whole(double value, double least, double most) {

@@ -41,6 +41,11 @@ template <class Number>
 // The number with `digits` digits; from 1 to 1e15 without an exponent: 12.3, 1230000.
 [[nodiscard]] std::string rounded(double value, int digits);
 
+// A short number in the smaller unit, unless that overflows.
+[[nodiscard]] std::string degrees(double angle);       // of rad
+[[nodiscard]] std::string milliseconds(double time);   // of s
+[[nodiscard]] std::string millimetres(double length);  // of m
+
 // 2^53 - 1: no other whole number reads as the same double.
 inline constexpr double largest_whole = 9007199254740991.0;
 

@@ -57,12 +57,9 @@ DryParts dry_parts(const Scenario& scene) {
 }  // namespace
 
 CoupledBall coupled_ball(const Scenario& scene) {
-  const Ball& ball = scene.ball;
   const BallConstants of = constants_of(scene);
-  CoupledBall coupled{of.radius, of.mass, of.gravity, of.rolling, {}, of.body};
-  coupled.law.rolling = ball.losses.rolling;
-  coupled.law.viscous = ball.losses.viscous / (ball.mass * ball.radius * ball.radius);
-  coupled.law.pivoting = ball.losses.pivoting / ball.radius;
+  const ContactLaw law(scene.ball.losses, scene.ball.mass, scene.ball.radius);
+  CoupledBall coupled{of.radius, of.mass, of.gravity, of.rolling, law, of.body};
   if (scene.events.slip) coupled.law.sliding = scene.events.slip->sliding.value_or(0);
   return coupled;
 }

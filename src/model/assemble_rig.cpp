@@ -11,32 +11,18 @@
 #include "model/control/derivatives.hpp"
 #include "model/control/riccati.hpp"
 #include "model/servo/linkages.hpp"
+#include "model/servo/servo.hpp"
 #include "scenario/columns.hpp"
 
 namespace bbsim::model {
 namespace {
 
-// A stepper's ramp is no linear response. Linear analysis takes it for one that is over within a
-// small part of a period, but for the shaft's swings.
-constexpr double stepper_frequency = 100;  // times the period
-
-ServoResponse response_of(const Servo& servo, const Scenario& scene) {
-  if (servo.stepper) {
-    const StepperMotor& motor = *servo.stepper;
-    const double w =
-        motor.natural_frequency.value_or(stepper_frequency / scene.controller->sampling->period);
-    return {w * w, w * w, 2 * (motor.natural_frequency ? motor.damping : 1) * w};
-  }
-  if (servo.time_constant) return {0, 0, 1 / *servo.time_constant};
-  const double w = servo.natural_frequency;
-  return {w * w, w * w, 2 * servo.damping * w};
-}
-
 ServoResponses servo_responses(const Scenario& scene) {
   if (!scene.gimbal.servo) return {};
-  ServoResponses all(response_of(scene.gimbal.servo_of(0), scene));
-  all.of[1] = response_of(scene.gimbal.servo_of(1), scene);
-  if (scene.gimbal.three_servos) all.of[2] = response_of(scene.gimbal.servo_of(2), scene);
+  ServoResponses all(response_of(scene.gimbal.servo_of(0), *scene.controller));
+  all.of[1] = response_of(scene.gimbal.servo_of(1), *scene.controller);
+  if (scene.gimbal.three_servos)
+    all.of[2] = response_of(scene.gimbal.servo_of(2), *scene.controller);
   return all;
 }
 
@@ -84,26 +70,6 @@ ControlLaw control_law(const Scenario& scene, const ServoResponses& servo,
       break;
   }
   return law;
-}
-
-RigServo rig_servo(const Servo& servo, const Controller& controller) {
-  RigServo rig;
-  rig.angle_limit = servo.angle_limit.value_or(unlimited);
-  rig.rate_limit = servo.rate_limit.value_or(unlimited);
-  rig.acceleration_limit = servo.acceleration_limit.value_or(unlimited);
-  rig.dead_band = servo.dead_band;
-  rig.backlash = servo.backlash;
-  rig.time_constant = servo.time_constant;
-  if (servo.stepper) {
-    const StepperMotor& motor = *servo.stepper;
-    rig.step = motor.microstep();
-    if (motor.torque) rig.torque_limit = *motor.torque / (*motor.inertia * motor.gear);
-    if (motor.corner_speed) rig.corner_rate = *motor.corner_speed / motor.gear;
-    rig.field_period = 4 * motor.microsteps * rig.step;
-    rig.rings = motor.natural_frequency.has_value();
-    if (controller.is_sketch()) rig.pulse_time = controller.sampling->period;
-  }
-  return rig;
 }
 
 Rig build_rig(const Scenario& scene, const ControlLaw& law) {

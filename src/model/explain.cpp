@@ -4,7 +4,6 @@
 // Explains what the model of a scene includes and omits, for `bbsim check` and the summary.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <type_traits>
 #include <variant>
 
@@ -13,28 +12,11 @@
 #include "model/assemble.hpp"
 #include "model/model.hpp"
 #include "model/servo/linkages.hpp"
+#include "model/servo/servo.hpp"
 #include "scenario/coupled.hpp"
 
 namespace bbsim::model {
 namespace {
-
-// Formats in the smaller unit unless that overflows.
-std::string in_unit(double value, double units, const char* unit, const char* si) {
-  return std::isfinite(value * units) ? short_number(value * units) + unit
-                                      : short_number(value) + si;
-}
-
-std::string degrees(double angle) {
-  return in_unit(angle, 180 / std::numbers::pi, " deg", " rad");
-}
-
-std::string milliseconds(double time) {
-  return in_unit(time, 1e3, " ms", " s");
-}
-
-std::string millimetres(double length) {
-  return in_unit(length, 1e3, " mm", " m");
-}
 
 // A comma-separated list.
 class List {
@@ -84,51 +66,11 @@ std::string gimbal_note(const Scenario& scene) {
     return std::string("angles and rates are states: the controller drives their accelerations") +
            (needs_rig(scene) ? "" : ", equation (31)");
   }
-  const auto kind = [&](std::size_t axis) -> std::string {
-    const Servo& servo = scene.gimbal.servo_of(axis);
-    return servo.stepper         ? "stepper"
-           : servo.time_constant ? "first-order servo"
-                                 : "second-order servo";
-  };
-  const std::string phi = kind(0), theta = kind(1);
+  const std::string phi = kind_of(scene.gimbal.servo_of(0)),
+                    theta = kind_of(scene.gimbal.servo_of(1));
   return "angles and rates are states: " +
          (phi == theta ? phi + 's' : "a " + phi + " and a " + theta) +
          " follow the controller's angles";
-}
-
-std::string limits_of(const Servo& servo) {
-  List list;
-  if (servo.stepper) {
-    const StepperMotor& motor = *servo.stepper;
-    list.add("microsteps of " + degrees(motor.microstep()));
-    if (motor.torque) {
-      list.add("loses steps beyond " + short_number(*motor.torque / (*motor.inertia * motor.gear)) +
-               " rad/s^2");
-    }
-    if (motor.natural_frequency) {
-      list.add("rings at " + short_number(*motor.natural_frequency) + " rad/s, damping " +
-               short_number(motor.damping));
-    }
-  }
-  if (servo.angle_limit) list.add("stops at " + degrees(*servo.angle_limit));
-  if (servo.rate_limit) list.add("at most " + degrees(*servo.rate_limit) + "/s");
-  if (servo.acceleration_limit)
-    list.add("at most " + short_number(*servo.acceleration_limit) + " rad/s^2");
-  list.add_if(servo.dead_band > 0, "dead band " + degrees(servo.dead_band));
-  list.add_if(servo.backlash > 0, "backlash " + degrees(servo.backlash));
-  return list.text();
-}
-
-std::string speed_of(const Servo& servo) {
-  if (servo.stepper) return "stepper";
-  if (servo.time_constant) return "time constant " + milliseconds(*servo.time_constant);
-  return "natural frequency " + short_number(servo.natural_frequency) + " rad/s, damping " +
-         short_number(servo.damping);
-}
-
-std::string servo_note(const Servo& servo) {
-  const std::string limits = limits_of(servo);
-  return speed_of(servo) + (limits.empty() ? "" : ", " + limits);
 }
 
 std::string limits_note(const Gimbal& gimbal) {
@@ -168,7 +110,7 @@ std::string assumes_note(const Scenario& scene) {
 
 // A warning if the servo's stops lie beyond the ends of the curve.
 std::string beyond_note(const Linkage& linkage, const Servo& servo) {
-  const double stop = servo.angle_limit.value_or(unlimited);
+  const double stop = servo.angle_limit;
   if (stop == unlimited || (linkage.curve.high > stop && linkage.curve.low < -stop)) return "";
   return "; WARNING: its stops at " + degrees(stop) + " lie beyond that";
 }
@@ -426,7 +368,7 @@ std::string without(const Scenario& scene) {
   const Controller* controller = scene.controller ? &*scene.controller : nullptr;
   if (controller != nullptr) {
     list.add_if(!torques && (servo == nullptr || limits_note(scene.gimbal).empty()),
-                "servo limits, dead band and backlash");
+                "limits and losses of servos");
     list.add_if(!controller->sampling, "sampling");
     list.add_if(!controller->sensor, "sensor errors");
   }

@@ -13,32 +13,7 @@
 namespace bbsim::scenario {
 namespace {
 
-// Tells whether a servo has a value, from its own keys, the keys of all servos, or its model.
-struct ServoKey {
-  std::string_view path;
-  bool (*holds)(const Servo&);
-};
 constexpr std::string_view of_servos = "gimbal.servo.";
-constexpr ServoKey servo_keys[] = {
-    {"gimbal.servo.acceleration_limit",
-     [](const Servo& s) { return s.acceleration_limit.has_value(); }},
-    {"gimbal.servo.angle_limit", [](const Servo& s) { return s.angle_limit.has_value(); }},
-    {"gimbal.servo.backlash", [](const Servo& s) { return s.backlash > 0; }},
-    {"gimbal.servo.dead_band", [](const Servo& s) { return s.dead_band > 0; }},
-    {"gimbal.servo.model", [](const Servo& /*its values*/) { return false; }},
-    {"gimbal.servo.natural_frequency", [](const Servo& s) { return s.natural_frequency > 0; }},
-    {"gimbal.servo.rate_limit", [](const Servo& s) { return s.rate_limit.has_value(); }},
-    {"gimbal.servo.stepper", [](const Servo& s) { return s.stepper.has_value(); }},
-    {"gimbal.servo.stepper.corner_speed",
-     [](const Servo& s) { return s.stepper && s.stepper->corner_speed; }},
-    {"gimbal.servo.stepper.inertia",
-     [](const Servo& s) { return s.stepper && s.stepper->inertia; }},
-    {"gimbal.servo.stepper.model", [](const Servo& /*its values*/) { return false; }},
-    {"gimbal.servo.stepper.natural_frequency",
-     [](const Servo& s) { return s.stepper && s.stepper->natural_frequency; }},
-    {"gimbal.servo.stepper.torque", [](const Servo& s) { return s.stepper && s.stepper->torque; }},
-    {"gimbal.servo.time_constant", [](const Servo& s) { return s.time_constant.has_value(); }},
-};
 
 // A servo and the path to its keys.
 struct OneServo {
@@ -73,8 +48,7 @@ std::vector<Check> checks_of(std::span<const KeyRelation> relations) {
   for (const KeyRelation& one : relations) {
     checks.push_back({&one, conditions(one.keys), conditions(one.others), false});
     for (const auto& all : checks.back().keys) {
-      checks.back().of_servo |= std::ranges::find(servo_keys, all.front().path, &ServoKey::path) !=
-                                std::ranges::end(servo_keys);
+      checks.back().of_servo |= all.front().servo != nullptr;
     }
   }
   return checks;
@@ -114,10 +88,7 @@ class Checker {
     return std::ranges::all_of(all, [&](const Condition& one) { return holds(one); });
   }
   [[nodiscard]] bool holds(const Condition& condition) const {
-    const auto* const key = condition.path.starts_with(of_servos)
-                                ? std::ranges::find(servo_keys, condition.path, &ServoKey::path)
-                                : std::ranges::end(servo_keys);
-    if (key != std::ranges::end(servo_keys)) {
+    if (const ServoKey* const key = condition.servo) {
       if (servo_ != nullptr) return key->holds(*servo_->servo);
       return std::ranges::any_of(servos_,
                                  [&](const OneServo& one) { return key->holds(*one.servo); });

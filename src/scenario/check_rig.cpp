@@ -174,9 +174,7 @@ class Checks {
              "found a rate, but a servo of first order (time_constant) has no rate state; allowed: "
              "phi and theta");
     }
-    const auto within = [&](double angle, const std::optional<double>& limit) {
-      return !limit || std::abs(angle) <= *limit;
-    };
+    const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
     const auto check = [&](bool fine, const char* what) {
       if (fine) return;
       refuse("gimbal.start", std::string("found beyond gimbal.servo.") + what +

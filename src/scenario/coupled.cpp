@@ -28,7 +28,7 @@ const char* dry_part(const Scenario& scene) {
 }
 
 bool is_coupled(const Scenario& scene) {
-  return scene.ball.push || has_dry_losses(scene) || scene.ball.losses.viscous > 0 ||
+  return scene.ball.push || scene.ball.losses.any() ||
          (scene.events.slip && scene.events.slip->sliding) || moved_by_torques(scene);
 }
 

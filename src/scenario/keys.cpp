@@ -90,13 +90,9 @@ std::optional<double> of_servo(const std::string& name, const ScenarioFamily& fa
   const bool of_theta = key.starts_with("theta.");
   if (of_theta || key.starts_with("phi.")) key.remove_prefix(key.find('.') + 1);
   const Servo& servo = scene.gimbal.servo_of(of_theta ? 1 : 0);
-  if (key == "natural_frequency") return servo.natural_frequency;
-  if (key == "damping") return servo.damping;
-  if (key == "angle_limit") return servo.angle_limit;
-  if (key == "rate_limit") return servo.rate_limit;
-  if (key == "dead_band") return servo.dead_band;
-  if (key == "backlash") return servo.backlash;
-  return {};
+  const Declared has = declared_servo(servo);
+  const auto found = std::ranges::find(has.keys, key, &yaml::DeclaredKey::name);
+  return found == has.keys.end() ? std::nullopt : number_in<double>(found->standard);
 }
 
 }  // namespace

@@ -93,12 +93,18 @@ struct Backlash {
 // The keys of commercial servos (docs/reference/scenario.md, "Servos").
 yaml::NameOf<Servo> servo_models() {
   constexpr double degree = std::numbers::pi / 180, hertz = 2 * std::numbers::pi;
-  return {{{{6 * hertz, 0.9, {}, 60 * degree, 350 * degree, {}, 0.4 * degree, 0.3 * degree},
-            "hobby-standard"},
-           {{5 * hertz, 0.8, {}, 60 * degree, 500 * degree, {}, 1 * degree, 0.6 * degree},
-            "hobby-micro"},
-           {{10 * hertz, 1, {}, 150 * degree, 360 * degree, {}, 0.1 * degree, 0.25 * degree},
-            "smart-serial"}}};
+  const auto servo = [](double frequency, double damping, double stop, double rate,
+                        double dead_band, double backlash) {
+    return Servo{.natural_frequency = frequency * hertz,
+                 .damping = damping,
+                 .angle_limit = stop * degree,
+                 .rate_limit = rate * degree,
+                 .dead_band = dead_band * degree,
+                 .backlash = backlash * degree};
+  };
+  return {{{servo(6, 0.9, 60, 350, 0.4, 0.3), "hobby-standard"},
+           {servo(5, 0.8, 60, 500, 1, 0.6), "hobby-micro"},
+           {servo(10, 1, 150, 360, 0.1, 0.25), "smart-serial"}}};
 }
 
 // A rate as vendors state it: the time for an angle.
@@ -267,6 +273,14 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
       "backlash", Backlash{}, servo.backlash,
       {.meaning = "full width of the gap between servo and plate", .range = "0, or ≥ 1e-6"});
 }
+
+}  // namespace
+
+yaml::Declared declared_servo(const Servo& servo) {
+  return yaml::MappingOf(read_servo_keys).declared(servo);
+}
+
+namespace {
 
 struct BothServos {
   Servo phi;

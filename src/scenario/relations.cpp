@@ -299,6 +299,27 @@ constexpr KeyRelation others[] = {
      "where the sliding motion is not defined; allowed: stop or note"},
 };
 
+constexpr ServoKey servo_keys[] = {
+    {"gimbal.servo.acceleration_limit",
+     [](const Servo& s) { return s.acceleration_limit < unlimited; }},
+    {"gimbal.servo.angle_limit", [](const Servo& s) { return s.angle_limit < unlimited; }},
+    {"gimbal.servo.backlash", [](const Servo& s) { return s.backlash > 0; }},
+    {"gimbal.servo.dead_band", [](const Servo& s) { return s.dead_band > 0; }},
+    {"gimbal.servo.model", [](const Servo& /*its values*/) { return false; }},
+    {"gimbal.servo.natural_frequency", [](const Servo& s) { return s.natural_frequency > 0; }},
+    {"gimbal.servo.rate_limit", [](const Servo& s) { return s.rate_limit < unlimited; }},
+    {"gimbal.servo.stepper", [](const Servo& s) { return s.stepper.has_value(); }},
+    {"gimbal.servo.stepper.corner_speed",
+     [](const Servo& s) { return s.stepper && s.stepper->corner_speed; }},
+    {"gimbal.servo.stepper.inertia",
+     [](const Servo& s) { return s.stepper && s.stepper->inertia; }},
+    {"gimbal.servo.stepper.model", [](const Servo& /*its values*/) { return false; }},
+    {"gimbal.servo.stepper.natural_frequency",
+     [](const Servo& s) { return s.stepper && s.stepper->natural_frequency; }},
+    {"gimbal.servo.stepper.torque", [](const Servo& s) { return s.stepper && s.stepper->torque; }},
+    {"gimbal.servo.time_constant", [](const Servo& s) { return s.time_constant.has_value(); }},
+};
+
 }  // namespace
 
 Condition::Condition(std::string_view text) {
@@ -306,6 +327,8 @@ Condition::Condition(std::string_view text) {
   const std::size_t end = std::min(text.find('='), above);
   path = text.substr(0, end);
   positive = above != std::string_view::npos;
+  const auto* const found = std::ranges::find(servo_keys, path, &ServoKey::path);
+  if (found != std::ranges::end(servo_keys)) servo = found;
   if (positive) or_absent = text.ends_with('|');
   if (positive || end == std::string_view::npos) return;
   values = split(text.substr(end + 1), "|");

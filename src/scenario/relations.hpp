@@ -14,6 +14,12 @@
 
 namespace bbsim::scenario {
 
+// A key of servos, and whether a servo has a value for it: by its own keys, by those of all servos,
+// or by its model.
+struct ServoKey {
+  std::string_view path;
+  bool (*holds)(const Servo&);
+};
 // A condition on one key. "gimbal.servo": it is given. "controller.drives=torque|voltage": it has
 // one of these values. "controller.drives=acceleration|": it has this value or is absent.
 // "plate.mass>0": it is positive. "gravity>0|": it is not 0.
@@ -23,6 +29,7 @@ struct Condition {
   std::string_view path;
   std::vector<std::string_view> values;
   bool or_absent = false, positive = false;
+  const ServoKey* servo = nullptr;  // if it is a key of servos
 };
 
 // Alternatives joined by " or ", each of conditions joined by " and ". An empty text always holds.

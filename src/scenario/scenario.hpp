@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -25,12 +26,16 @@ class ExternalController;
 }
 struct Scenario;
 
+// A limit that does not exist.
+inline constexpr double unlimited = std::numeric_limits<double>::infinity();
+
 // Couples that the plate exerts on the ball against its rotation.
 struct Losses {
   double rolling = 0;   // coefficient of rolling resistance: couple over N r
   double viscous = 0;   // couple over the rotation rate along the plane, N m s
   double pivoting = 0;  // couple about the normal over N, m
 
+  [[nodiscard]] bool any() const { return *this != Losses{}; }
   friend bool operator==(const Losses&, const Losses&) = default;
 };
 
@@ -139,27 +144,27 @@ struct StepperMotor {
   [[nodiscard]] double microstep() const {  // of the shaft, rad
     return 2 * std::numbers::pi / (steps * microsteps * gear);
   }
+  friend bool operator==(const StepperMotor&, const StepperMotor&) = default;
 };
 
 // Second order: phi'' = omega_n^2 (u_phi - phi) - 2 zeta omega_n phi', and the same for theta.
 // First order: phi' = (u_phi - phi) / time_constant.
 struct Servo {
-  double natural_frequency = 0;                // omega_n, rad/s, > 0
-  double damping = 0;                          // zeta, >= 0
-  std::optional<double> time_constant{};       // s, > 0; replaces the two above
-  std::optional<double> angle_limit{};         // hard stops at +-angle_limit, rad
-  std::optional<double> rate_limit{};          // rad/s
-  std::optional<double> acceleration_limit{};  // rad/s^2
-  double dead_band = 0;  // ignores commands that differ from the last by less, rad
-  double backlash = 0;   // free play between servo and plane, rad
+  double natural_frequency = 0;           // omega_n, rad/s, > 0
+  double damping = 0;                     // zeta, >= 0
+  std::optional<double> time_constant{};  // s, > 0; replaces the two above
+  double angle_limit = unlimited;         // hard stops at +-angle_limit, rad
+  double rate_limit = unlimited;          // rad/s
+  double acceleration_limit = unlimited;  // rad/s^2
+  double dead_band = 0;                   // ignores commands that differ from the last by less, rad
+  double backlash = 0;                    // free play between servo and plane, rad
   // Replaces natural_frequency and damping: the shaft follows a ramp within the limits of rate and
   // acceleration.
   std::optional<StepperMotor> stepper{};
 
-  [[nodiscard]] bool plain() const {
-    return !stepper && !time_constant && !angle_limit && !rate_limit && !acceleration_limit &&
-           dead_band == 0 && backlash == 0;
-  }
+  // Whether it is of second order without limits and losses.
+  [[nodiscard]] bool plain() const { return *this == Servo{natural_frequency, damping}; }
+  friend bool operator==(const Servo&, const Servo&) = default;
 };
 
 // A push rod connects the servo's horn to an arm on the plate. In the plane of the linkage, the

@@ -58,6 +58,8 @@ void read_plate(yaml::Keys& keys, Plate& plate);
 void read_events(yaml::Keys& keys, Events& events);
 void read_time(yaml::Keys& keys, OutputTimes& time);
 void read_gimbal(yaml::Keys& keys, Gimbal& gimbal);
+// The keys of a servo, with its present values for defaults.
+[[nodiscard]] yaml::Declared declared_servo(const Servo& servo);
 // Three servos, and the servo of legs without their own.
 struct ThreeServos {
   ThreeServoPlate plate;

@@ -18,12 +18,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -192,6 +194,9 @@ class Keys {
  private:
   template <class Rule, class T>
   static std::string text_of(const Rule& rule, const T& value) {
+    if constexpr (std::is_same_v<T, double>) {
+      if (value == std::numeric_limits<double>::infinity()) return "";  // unlimited
+    }
     if constexpr (requires { rule.text_of(value); }) {
       return rule.text_of(value);
     } else {
@@ -225,11 +230,12 @@ class MappingOf {
     return "a mapping with " + joined(known);
   }
 
-  // A key that is known but not declared has the kind `none`.
-  [[nodiscard]] Declared declared() const {
+  // Defaults are the values of `defaults`. A key that is known but not declared has the kind
+  // `none`.
+  [[nodiscard]] Declared declared(const T& defaults = {}) const {
     Declared result(Declared::Kind::mapping);
     std::vector<std::string_view> known;
-    read_empty(&result, known);
+    read_empty(&result, known, defaults);
     for (const std::string_view key : known) {
       if (std::ranges::find(result.keys, key, &DeclaredKey::name) == result.keys.end()) {
         result.keys.push_back({std::string(key), {}});
@@ -247,11 +253,12 @@ class MappingOf {
   }
 
  private:
-  void read_empty(Declared* declared, std::vector<std::string_view>& known) const {
+  void read_empty(Declared* declared, std::vector<std::string_view>& known,
+                  const T& defaults = {}) const {
     Problems unheard("", "", {});
     Context context{unheard, {}};
     Keys keys({&empty_mapping(), "", {}, &context}, declared);
-    T scratch{};
+    T scratch = defaults;
     reader_(keys, scratch);
     known = keys.known();
   }

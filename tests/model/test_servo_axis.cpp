@@ -12,6 +12,7 @@
 namespace bbsim_test::test_servo_axis {
 
 using namespace bbsim::model;
+using bbsim::unlimited;
 
 namespace {
 

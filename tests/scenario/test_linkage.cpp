@@ -129,12 +129,12 @@ TEST_CASE("an axis may have its own servo keys") {
       parse(base, {"gimbal.servo={natural_frequency: 30, damping: 0.8, rate_limit: 5, theta: "
                    "{natural_frequency: 20, angle_limit: 0.4}}"});
   CHECK(scene.gimbal.servo_of(0).natural_frequency == 30);
-  CHECK_FALSE(scene.gimbal.servo_of(0).angle_limit);
+  CHECK(scene.gimbal.servo_of(0).angle_limit == unlimited);
   const Servo& theta = scene.gimbal.servo_of(1);
   CHECK(theta.natural_frequency == 20);
   CHECK(theta.damping == 0.8);
-  CHECK(*theta.rate_limit == 5);
-  CHECK(*theta.angle_limit == 0.4);
+  CHECK(theta.rate_limit == 5);
+  CHECK(theta.angle_limit == 0.4);
   // All keys by axis.
   const Scenario apart = parse(base, {"gimbal.servo={phi: {natural_frequency: 30, damping: 1}, "
                                       "theta: {natural_frequency: 20, damping: 0.7}}"});
@@ -182,8 +182,8 @@ TEST_CASE("servos have the units of data sheets") {
   const Servo& servo = *sold.gimbal.servo;
   CHECK(servo.natural_frequency == Approx(37.69911184307752));
   CHECK(servo.damping == 0.9);
-  CHECK(*servo.rate_limit == Approx(6.159985595274104));
-  CHECK(*servo.angle_limit == Approx(1.0471975511965976));
+  CHECK(servo.rate_limit == Approx(6.159985595274104));
+  CHECK(servo.angle_limit == Approx(1.0471975511965976));
   CHECK(servo.dead_band == Approx(0.006981317007977318));
   CHECK(servo.backlash == Approx(0.005235987755982988));
   CHECK(sold.controller->sampling->period == 0.02);

@@ -45,11 +45,11 @@ TEST_CASE("the parts of a rig are read in SI units") {
                    "plate.size=[0.3, 0.2]", "plate.inertia=[1e-3, 2e-3, 3e-3]", "events.edge=stop",
                    "events.slip={friction: 0.3}", "ball.inertia_factor=0.5"});
   const Servo& servo = *scene.gimbal.servo;
-  CHECK(*servo.rate_limit == Approx(5.235987755982989).epsilon(1e-15));
-  CHECK(*servo.angle_limit == Approx(0.4363323129985824).epsilon(1e-15));
+  CHECK(servo.rate_limit == Approx(5.235987755982989).epsilon(1e-15));
+  CHECK(servo.angle_limit == Approx(0.4363323129985824).epsilon(1e-15));
   CHECK(servo.dead_band == 0.001);
   CHECK(servo.backlash == 0.002);
-  CHECK(*servo.acceleration_limit == 200);
+  CHECK(servo.acceleration_limit == 200);
   CHECK(scene.gimbal.mounting.height == 0.05);
   CHECK(*scene.controller->limit == Approx(0.20943951023931956).epsilon(1e-15));
   CHECK(scene.controller->sampling->period == 0.02);

@@ -316,7 +316,7 @@ TEST_CASE("a hard stop kicks the ball by r times the servo's rate") {
   };
   Scenario fine = scene;
   fine.time = {t1, t1 / 2000};
-  fine.gimbal.servo->angle_limit.reset();
+  fine.gimbal.servo->angle_limit = unlimited;
   const Run before = run_of(fine, method);
   double momentum = 0;
   for (std::size_t i = 0; i + 2 < before.samples.size(); i += 2) {

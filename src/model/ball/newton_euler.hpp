@@ -22,6 +22,12 @@ namespace bbsim::model {
 
 // The losses at the contact.
 struct ContactLaw {
+  ContactLaw() = default;
+  ContactLaw(const Losses& losses, double m, double r)
+      : rolling(losses.rolling),
+        viscous(losses.viscous / (m * r * r)),
+        pivoting(losses.pivoting / r) {}
+
   double rolling = 0;   // coefficient of rolling resistance
   double viscous = 0;   // c_v / (m r^2), 1/s
   double pivoting = 0;  // l / r

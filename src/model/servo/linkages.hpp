@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,8 +16,6 @@
 #include "scenario/scenario.hpp"
 
 namespace bbsim::model {
-
-inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 // Bounds on a command.
 struct CommandRange {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "model/servo/held_motion.hpp"
-#include "model/systems/rig.hpp"
+#include "model/servo/servo.hpp"
 
 namespace bbsim::model {
 

@@ -12,7 +12,7 @@
 namespace bbsim::model {
 
 // Calls `use` with the RigLoop of a system if the servos' motion determines the plate's, and that
-// the ball's: the ball rolls without a viscous couple and without a push. Otherwise returns false.
+// the ball's: the ball rolls without losses and without a push. Otherwise returns false.
 template <class Use>
 bool with_given_plate(const System& system, Use use) {
   return std::visit(
@@ -23,7 +23,7 @@ bool with_given_plate(const System& system, Use use) {
           return true;
         } else if constexpr (is_coupled_loop<Any>) {
           if constexpr (Any::pushes) {
-            if (any.by != GimbalBy::servos || any.parts.ball.law.viscous != 0 ||
+            if (any.by != GimbalBy::servos || any.parts.ball.law != ContactLaw{} ||
                 !any.push.on.is_zero(0) || !any.push.on.is_zero(1)) {
               return false;
             }

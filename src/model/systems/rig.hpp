@@ -12,6 +12,7 @@
 
 #include "model/ball/dynamics.hpp"
 #include "model/servo/linkages.hpp"
+#include "model/servo/servo.hpp"
 #include "model/systems/rig_loop.hpp"
 #include "scenario/scenario.hpp"
 
@@ -32,27 +33,6 @@ struct SampledLoop {
   // must attach before a run, and the names of the columns that it returns.
   std::shared_ptr<ExternalController> external{};
   std::vector<std::string> own_columns{};
-};
-
-// The deviations of a servo from an ideal one.
-struct RigServo {
-  double angle_limit = unlimited;         // rad
-  double rate_limit = unlimited;          // rad/s
-  double acceleration_limit = unlimited;  // rad/s^2
-  double dead_band = 0, backlash = 0;     // rad
-  std::optional<double> time_constant;    // of a first-order servo, s
-  double offset = 0;                      // angle of the plane at the servo's zero, rad
-  double step = 0;                        // of a stepper: its microstep, rad; 0: not a stepper
-  bool rings = false;                     // a stepper whose shaft rings about its driver's field
-  double pulse_time = 0;  // of a stepper under a sketch's pulses: it takes this to a target, s
-  // The greatest acceleration that a stepper's torque gives its shaft, rad/s^2; the rate beyond
-  // which it falls as 1/rate, rad/s; and the period of its field, four full steps, rad.
-  double torque_limit = unlimited, corner_rate = unlimited, field_period = 0;
-
-  [[nodiscard]] bool switches() const {
-    return step > 0 || angle_limit < unlimited || rate_limit < unlimited ||
-           acceleration_limit < unlimited || backlash > 0;
-  }
 };
 
 // The deviations of the servos and the controller of a closed loop from ideal ones.

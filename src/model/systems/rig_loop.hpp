@@ -15,6 +15,7 @@
 #include "model/ball/general_rolling.hpp"
 #include "model/control/law.hpp"
 #include "model/servo/linkage.hpp"
+#include "model/servo/servo.hpp"
 #include "model/systems/system.hpp"
 
 namespace bbsim::model {
@@ -57,17 +58,6 @@ struct RigMode {
   StepperDriver driver[most_servos];
   bool lags = false;   // whether the shaft of any stepper may be behind its driver's count
   bool rings = false;  // whether the shaft of any stepper rings, and moves in time
-};
-
-// Servo acceleration in free motion: from_command u - from_angle q - from_rate q'.
-struct ServoResponse {
-  double from_command = 1, from_angle = 0, from_rate = 0;
-
-  // A response that comes to rest at the same angle. A servo without stiffness sets its rate from
-  // its command and rests at the command.
-  [[nodiscard]] ServoResponse at_rest() const {
-    return {from_angle > 0 ? from_command / from_angle : 1, 1, 0};
-  }
 };
 
 struct ServoResponses {

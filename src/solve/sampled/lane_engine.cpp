@@ -120,8 +120,8 @@ void LaneEngine::forget_tables() {
 void LaneEngine::take_monitors(std::size_t l, const model::Model& model) {
   scene_.friction[l] = 0;
   for (std::size_t quantity = 0; quantity <= Quantity::grip; ++quantity) {
-    scene_.least[quantity][l] = -model::unlimited;
-    scene_.most[quantity][l] = model::unlimited;
+    scene_.least[quantity][l] = -unlimited;
+    scene_.most[quantity][l] = unlimited;
   }
   if (!model.events) return;
   for (const model::Monitor& monitor : model.events->monitors) {
@@ -135,7 +135,7 @@ void LaneEngine::take_monitors(std::size_t l, const model::Model& model) {
     if (monitor.kind == Kind::dead_point) continue;  // is_quiet()
     // No value is within this range, so the lane is given up.
     if (!for_each_range(monitor, model.events->plate, stays)) {
-      stays(Quantity::x, model::unlimited, -model::unlimited);
+      stays(Quantity::x, unlimited, -unlimited);
     }
   }
 }

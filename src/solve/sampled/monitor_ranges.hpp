@@ -15,7 +15,6 @@ namespace bbsim::solve::sampled {
 // happens. Returns false if these quantities cannot decide this monitor.
 template <class Use>
 [[nodiscard]] bool for_each_range(const model::Monitor& monitor, const Plate& plate, Use use) {
-  constexpr double unlimited = model::unlimited;
   using Kind = model::Monitor::Kind;
   switch (monitor.kind) {
     case Kind::edge:

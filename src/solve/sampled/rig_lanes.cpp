@@ -54,8 +54,8 @@ RigLanes::RigLanes(Tolerances tolerances, const OutputGrid& grid)
       reference_(std::make_unique<LaneReference>()),
       controllers_(kernels_) {
   for (int quantity = 0; quantity < lane_quantity_count; ++quantity) {
-    std::fill_n(scene_.known_least[quantity], group, -model::unlimited);
-    std::fill_n(scene_.known_most[quantity], group, model::unlimited);
+    std::fill_n(scene_.known_least[quantity], group, -unlimited);
+    std::fill_n(scene_.known_most[quantity], group, unlimited);
   }
 }
 
