@@ -25,7 +25,7 @@
 #include "api/sweep.hpp"
 #include "base/error.hpp"
 #include "file/outputs.hpp"
-#include "model/control/open_loops.hpp"
+#include "model/control/linearize.hpp"
 #include "scenario/family.hpp"
 #include "scenario/measures.hpp"
 

@@ -12,7 +12,7 @@
 #include "api/replay.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "model/control/open_loops.hpp"
+#include "model/control/linearize.hpp"
 #include "scenario/keys.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"

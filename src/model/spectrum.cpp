@@ -10,7 +10,7 @@
 #include "model/control/derivatives.hpp"
 #include "model/control/sampled_cycle.hpp"
 #include "model/eigenvalues.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/list.hpp"
 
 namespace bbsim::model {
 namespace {

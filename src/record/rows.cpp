@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "model/systems/given_plate.hpp"
+#include "model/systems/list.hpp"
 
 namespace bbsim::record {
 namespace {

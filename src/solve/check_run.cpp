@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/real.hpp"
-#include "solve/hybrid_driver.hpp"
 #include "solve/radau/radau.hpp"
+#include "solve/stepper.hpp"
 
 namespace bbsim::solve {
 namespace {

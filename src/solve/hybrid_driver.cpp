@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "solve/hybrid_driver.hpp"
-
+// Drives a stepper through a scene that switches, samples or watches for events.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,7 +10,7 @@
 #include "solve/hybrid/guard_search.hpp"
 #include "solve/hybrid/hybrid_rows.hpp"
 #include "solve/pace.hpp"
-#include "solve/standstill.hpp"
+#include "solve/stepper.hpp"
 
 namespace bbsim::solve {
 namespace {

@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "solve/cvode/cvode.hpp"
-#include "solve/hybrid_driver.hpp"
 #include "solve/radau/radau.hpp"
 #include "solve/sampled/sampled.hpp"
+#include "solve/stepper.hpp"
 
 namespace bbsim::solve {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Distinguishes a run that will never finish from one that takes long.
+// Distinguishes a run that will never finish from one that takes long, and a rig that switches
+// again and again from one that moves on.
 //
 // Near a singular point, or where the error test sees only rounding, steps become so short that a
 // run goes on for days without progress. The step length alone says little: steps are short for a
@@ -16,6 +17,24 @@
 #include <utility>
 
 namespace bbsim::solve {
+
+// Detects a standstill: a hundred switches in a row without progress in time.
+class Standstill {
+ public:
+  // Counts a switch at t (s). Returns whether the rig stands still.
+  [[nodiscard]] bool after(double t) {
+    const bool still = t - last_ <= 1e-13 * t;
+    still_ = still ? still_ + 1 : 0;
+    last_ = t;
+    return still_ >= most;
+  }
+
+ private:
+  static constexpr int most = 100;
+
+  double last_ = -1;  // the last switch, s
+  int still_ = 0;
+};
 
 class Pace {
  public:

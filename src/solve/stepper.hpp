@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The interface of all integrators: one step at a time.
+// The interface of all integrators, one step at a time, and the drivers that run them.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -74,5 +75,19 @@ class Stepper {
 // sink. The model must not be hybrid().
 [[nodiscard]] Outcome run_through(Stepper& stepper, const model::Model& model,
                                   const OutputGrid& grid, StateSink& sink, const Watch& watch);
+
+using MakeStepper = std::function<std::unique_ptr<Stepper>(const model::Model& model)>;
+
+// Runs a scene that switches, samples or watches for events. Integrates from one switch to the
+// next. Calls `make_stepper` once, with the model whose mode the run changes. `tolerances` are
+// those of the stepper. The integrator stops at time events. A state event is the root of a guard
+// on the step's polynomial, accurate to the rounding of the time.
+//
+// Rows have Model::row_size() numbers. A row exactly at a switch has the state after it. Returns
+// Ending::stopped if an event stops the scene. Throws what `sink` throws, and InputError if `part`
+// has a state that does not fit.
+[[nodiscard]] Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
+                                       Tolerances tolerances, const OutputGrid& grid,
+                                       StateSink& sink, const Watch& watch);
 
 }  // namespace bbsim::solve

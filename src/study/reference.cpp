@@ -15,7 +15,7 @@
 #include <variant>
 
 #include "model/spectrum.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/list.hpp"
 #include "solve/integrate.hpp"
 #include "study/checks.hpp"
 #include "study/quad_step.hpp"

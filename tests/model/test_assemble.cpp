@@ -12,7 +12,7 @@
 #include "model/model.hpp"
 #include "model/random_states.hpp"
 #include "model/spectrum.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/list.hpp"
 #include "support/scenes.hpp"
 
 namespace bbsim_test::test_assemble {

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "model/model.hpp"
 #include "model/random_states.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/list.hpp"
 #include "support/largest.hpp"
 #include "support/reading.hpp"
 

@@ -10,9 +10,9 @@
 
 #include "catch.hpp"
 #include "model/control/identified_law.hpp"
+#include "model/control/linear_system.hpp"
 #include "model/control/linearize.hpp"
 #include "model/control/sampled_cycle.hpp"
-#include "model/control/transmission_zeros.hpp"
 #include "model/eigenvalues.hpp"
 #include "model/matched.hpp"
 #include "support/reading.hpp"

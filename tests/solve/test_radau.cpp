@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "model/systems/jacobian.hpp"
+#include "model/systems/list.hpp"
 #include "solve/cvode/cvode.hpp"
 #include "solve/integrate.hpp"
 #include "solve/radau/radau.hpp"

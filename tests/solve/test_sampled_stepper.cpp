@@ -13,13 +13,13 @@
 
 #include "catch.hpp"
 #include "record/recorder.hpp"
-#include "solve/hybrid_driver.hpp"
 #include "solve/integrate.hpp"
 #include "solve/radau/radau.hpp"
 #include "solve/sampled/lane_engine.hpp"
 #include "solve/sampled/lane_kernel.hpp"
 #include "solve/sampled/motion_tables.hpp"
 #include "solve/sampled/sampled.hpp"
+#include "solve/stepper.hpp"
 #include "support/run_in_memory.hpp"
 
 namespace bbsim_test::test_sampled_stepper {

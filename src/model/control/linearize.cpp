@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "model/control/linear_system.hpp"
 #include "model/control/sampled_cycle.hpp"
-#include "model/control/transmission_zeros.hpp"
 #include "model/dense.hpp"
 #include "model/eigenvalues.hpp"
 #include "scenario/coupled.hpp"

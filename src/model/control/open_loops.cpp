@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "model/control/open_loops.hpp"
-
+// Open loops over the frequency, for a Bode plot.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "model/control/linearize.hpp"
 #include "model/eigenvalues.hpp"
 
 namespace bbsim::model {

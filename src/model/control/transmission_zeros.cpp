@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "model/control/transmission_zeros.hpp"
-
+// Transmission zeros of a linear system.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "model/control/linear_system.hpp"
 #include "model/eigenvalues.hpp"
 
 namespace bbsim::model {

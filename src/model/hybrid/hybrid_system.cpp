@@ -3,7 +3,7 @@
 
 #include "model/hybrid/hybrid_system.hpp"
 
-#include "model/systems/given_plate.hpp"
+#include "model/systems/list.hpp"
 
 namespace bbsim::model {
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "model/systems/jacobian.hpp"
-
+// The exact Jacobian of any system, in one source file, because its instantiation for all systems
+// takes longer to compile than all its callers.
 #include <Eigen/Core>
 #include <type_traits>
 #include <variant>
 
+#include "model/systems/list.hpp"
 #include "simd/gradient.hpp"
 
 namespace bbsim::model {

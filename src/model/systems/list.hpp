@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The list of all systems, for models and integrators.
+// The list of all systems, for models and integrators, and what they ask of any of them.
 #pragma once
 
 #include <type_traits>
@@ -43,5 +43,34 @@ consteval bool views_in_order(std::type_identity<std::variant<Systems...>>,
   return (std::is_same_v<decltype(std::declval<const Systems&>().view()), Views> && ...);
 }
 static_assert(views_in_order(std::type_identity<System>{}, std::type_identity<SystemViews>{}));
+
+// The exact Jacobian, by forward-mode automatic differentiation: writes d f_i / d z_j at (t, z) to
+// matrix[i + size j] for a system of `size` states. Allocates nothing.
+void jacobian(const System& system, double t, const double* z, double* matrix);
+
+// Calls `use` with the RigLoop of a system if the servos' motion determines the plate's, and that
+// the ball's: the ball rolls without losses and without a push. Otherwise returns false.
+template <class Use>
+bool with_given_plate(const System& system, Use use) {
+  return std::visit(
+      [&](const auto& any) {
+        using Any = std::decay_t<decltype(any)>;
+        if constexpr (std::is_same_v<Any, RigLoop<false>>) {
+          use(any);
+          return true;
+        } else if constexpr (is_coupled_loop<Any>) {
+          if constexpr (Any::pushes) {
+            if (any.by != GimbalBy::servos || any.parts.ball.law != ContactLaw{} ||
+                !any.push.on.is_zero(0) || !any.push.on.is_zero(1)) {
+              return false;
+            }
+            use(any.loop);
+            return true;
+          }
+        }
+        return false;
+      },
+      system);
+}
 
 }  // namespace bbsim::model

@@ -203,4 +203,20 @@ struct alignas(64) RadauTable {
 template <class Isa, int s>
 inline constexpr RadauTable<Isa, s> radau_table{};
 
+// The weight of each nodal value in the node polynomial's value at the start of the step.
+template <int s>
+struct StartWeights {
+  double of[s]{};
+
+  consteval StartWeights() {
+    const auto& c = radau_table<Shared, s>.c;
+    for (int j = 0; j < s; ++j) {
+      of[j] = 1;
+      for (int k = 0; k < s; ++k) {
+        if (k != j) of[j] *= c[k] / (c[k] - c[j]);
+      }
+    }
+  }
+};
+
 }  // namespace bbsim::solve::radau

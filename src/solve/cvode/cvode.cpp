@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "model/systems/jacobian.hpp"
+#include "model/systems/list.hpp"
 #include "solve/cvode/sundials.hpp"
 
 namespace bbsim::solve {

@@ -23,7 +23,7 @@
 // Included only by the kernels. See simd/pack.hpp for why everything is inlined or tagged.
 #pragma once
 
-#include "solve/collocation/convergence.hpp"
+#include "solve/collocation/error_estimate.hpp"
 #include "solve/ensemble/newton.hpp"
 #include "solve/ensemble/workspace.hpp"
 

@@ -20,7 +20,7 @@
 //     (I - Jk - h l_k Jv - h^2 l_k^2 Jq) y_k = (T^-1 residual)_k,   k = 1 ... s/2, complex.
 #pragma once
 
-#include "solve/collocation/convergence.hpp"
+#include "solve/collocation/error_estimate.hpp"
 #include "solve/radau/dense_rows.hpp"
 #include "solve/radau/system_rates.hpp"
 

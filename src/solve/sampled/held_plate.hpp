@@ -9,7 +9,7 @@
 
 #include "model/model.hpp"
 #include "model/servo/held_motion.hpp"
-#include "model/systems/given_plate.hpp"
+#include "model/systems/list.hpp"
 #include "solve/sampled/kernel.hpp"
 #include "solve/sampled/motion_tables.hpp"
 

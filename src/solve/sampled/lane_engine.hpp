@@ -15,12 +15,12 @@
 #include "model/hybrid/hybrid_system.hpp"
 #include "solve/hybrid/guard_search.hpp"
 #include "solve/outcome.hpp"
+#include "solve/pace.hpp"
 #include "solve/sampled/held_plate.hpp"
 #include "solve/sampled/instants.hpp"
 #include "solve/sampled/lane_kernel.hpp"
 #include "solve/sampled/lane_step.hpp"
 #include "solve/sampled/sampled.hpp"
-#include "solve/standstill.hpp"
 
 namespace bbsim::solve::sampled {
 

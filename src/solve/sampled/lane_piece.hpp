@@ -4,10 +4,10 @@
 // Sampled rigs between two instants, with one rig in each lane, for one instruction set.
 #pragma once
 
+#include "solve/collocation/radau_table.hpp"
 #include "solve/sampled/lane_control.hpp"
 #include "solve/sampled/lane_kernel.hpp"
 #include "solve/sampled/piece.hpp"
-#include "solve/sampled/start_weights.hpp"
 
 namespace bbsim::solve::sampled {
 
@@ -68,7 +68,7 @@ struct LaneKernel {
     }
   }
 
-  static constexpr StartWeights start_weights{};
+  static constexpr radau::StartWeights<nodes> start_weights{};
 
   [[gnu::flatten]] static void tables(LaneAxis& axis, const LaneServo& servo,
                                       const double* length) {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "solve/collocation/radau_table.hpp"
-#include "solve/sampled/start_weights.hpp"
 
 namespace bbsim::solve::sampled {
 namespace {
@@ -81,7 +80,7 @@ void fill(MotionTable& table, const Kernels& kernels, const model::HeldLaw& law,
     table.most_by_acceleration = std::max(table.most_by_acceleration,
                                           std::abs(table.by_acceleration[MotionTable::angle][i]));
   }
-  constexpr StartWeights start;
+  constexpr radau::StartWeights<nodes> start;
   table.missed_by_rate = 0;
   table.missed_by_acceleration = -1;
   for (int i = 0; i < nodes; ++i) {

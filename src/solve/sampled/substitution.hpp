@@ -20,7 +20,7 @@
 #pragma once
 
 #include "simd/compare.hpp"
-#include "solve/collocation/convergence.hpp"
+#include "solve/collocation/error_estimate.hpp"
 #include "solve/collocation/given_ball.hpp"
 #include "solve/collocation/radau_table.hpp"
 #include "solve/sampled/lane_kernel.hpp"
