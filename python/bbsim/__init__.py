@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import importlib
 import os
+from numbers import Real
 from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -96,6 +97,8 @@ def sweep(
     condition of ``expect``. Raises InputError.
     """
     its = require("vary", {} if vary is None else vary, Mapping, "a dict such as {'ball.radius': [0.01, 0.02]}")
+    for what, found in (("samples", samples or 0), ("seed", seed or 0), ("threads", threads)):
+        require(what, found, Real, "a whole number")
     drawn = ([(key, specification(values)) for key, values in its.items()], combine, samples, seed)
     texts = (listed("measures", measures), listed("expect", expect))
     made = _bbsim.sweep(given(scenario, set, error), *drawn, *texts, threads)

@@ -177,6 +177,7 @@ def simulate(scenario: Scenario, cases: Cases, columns: Texts, times: Any = None
         count = max(len(one) for one in lists if one.ndim > 0) or 1
     ends = [array if array.ndim else np.full(count, array) for array in ends]
     names, asked = listed("columns", columns), listed("measures", measures)
+    require("threads", threads, Real, "a whole number")
     windows = (at, *ends, states, require("events", events, (bool, np.bool_), "True or False"))
     cases_done = _bbsim.simulate(given(scenario, set), count, keys, names, asked, *windows, threads)
     return Simulated(cases_done, names, asked)

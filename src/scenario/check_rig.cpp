@@ -63,7 +63,8 @@ class Checks {
     }
     if (controller.sampling && controller.sampling->period > 0) check_times(controller);
     if (const auto* square = std::get_if<SquareReference>(&controller.reference)) {
-      if (2 * scene_.time.end > static_cast<double>(most_jumps) * square->period) {
+      if (square->period > 0 &&
+          2 * scene_.time.end > static_cast<double>(most_jumps) * square->period) {
         refuse("controller.reference.square.period",
                "found more than 100,000 jumps until time.end; allowed: a longer period");
       }

@@ -483,6 +483,8 @@ class Sweeps(cases.Case):
             for value in values:
                 with self.subTest(name, value=value):
                     self.refuses("", bbsim.sweep, CONFIGS / "fig2b.yaml", vary, "end_x", **{**fine, name: value}, key=name)
+            with self.assertRaisesRegex(TypeError, f"^{name}: found 'x'; allowed: a whole number"):
+                bbsim.sweep(CONFIGS / "fig2b.yaml", vary, "end_x", **{**fine, name: "x"})
 
     def test_measures_and_draws(self):
         made = bbsim.sweep(CONFIGS / "fig2b.yaml", {"ball.position.0": "normal:5 cm:2 mm"}, ["max_tilt", "end_x"],
