@@ -90,8 +90,8 @@ static_assert(std::size(c_drives) == static_cast<std::size_t>(Drives::legs) + 1)
 class CSetup {
  public:
   explicit CSetup(const Setup& setup) {
-    for (const Parameter& one : setup.parameters) {
-      parameters_.push_back({one.name.c_str(), one.value});
+    for (const Parameter& parameter : setup.parameters) {
+      parameters_.push_back({parameter.name.c_str(), parameter.value});
     }
     for (const std::string& name : setup.columns) columns_.push_back(name.c_str());
     c_ = {BBSIM_CONTROLLER_ABI, c_drives[static_cast<std::size_t>(setup.drives)],
@@ -280,7 +280,7 @@ model::Commands Library::command(const model::ControllerSample& sample, double* 
   }
   if (code != 0) throw fail("it returned " + std::to_string(code) + ": " + last_error());
   const std::span<const double> given_back(command.data(), sample.servo.size());
-  if (!std::ranges::all_of(given_back, [](double one) { return std::isfinite(one); })) {
+  if (!std::ranges::all_of(given_back, [](double value) { return std::isfinite(value); })) {
     // Commands that the library does not write stay NaN.
     const bool lacks_third =
         given_back.size() == 3 && std::isnan(given_back[2]) && std::isfinite(given_back[1]);

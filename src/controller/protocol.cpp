@@ -66,7 +66,7 @@ Json parse_answer(std::string_view line) {
   for (std::size_t at = 0; at < line.size();) {
     const std::string_view rest = line.substr(at);
     const auto* const word =
-        std::ranges::find_if(words, [&](std::string_view one) { return rest.starts_with(one); });
+        std::ranges::find_if(words, [&](std::string_view word) { return rest.starts_with(word); });
     if (!quoted && word != std::end(words)) {
       (text += '"').append(not_finite) += '"';
       at += word->size();
@@ -200,12 +200,12 @@ Ready read_ready(std::string_view line) {
       ready.fields.reset();
       for (const Json& name : value) {
         const auto field = std::ranges::find_if(
-            fields, [&](const Field& one) { return name == Json(std::string(one.name)); });
+            fields, [&](const Field& field) { return name == Json(std::string(field.name)); });
         if (field != fields.end()) {
           ready.fields.set(static_cast<std::size_t>(field - fields.begin()));
         } else if (name != Json("sample")) {
           std::vector<std::string_view> known{"sample"};
-          for (const Field& one : fields) known.push_back(one.name);
+          for (const Field& field : fields) known.push_back(field.name);
           const bool is_text = name.is_string();
           const std::string meant = is_text ? yaml::hint(name.get<std::string>(), known) : "";
           return refuse(
@@ -293,7 +293,7 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
     }
   }
   if (!commanded) return refuse_form("found no command" + misspelt(line, "command") + "; ");
-  if (!std::ranges::all_of(command, [](double one) { return std::isfinite(one); })) {
+  if (!std::ranges::all_of(command, [](double value) { return std::isfinite(value); })) {
     return refuse("found a command that is not a finite number");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -309,8 +309,8 @@ std::string read_answer(std::string_view line, std::span<const std::string> name
 
 std::string with_serial(std::string_view sample_line, std::string_view bytes) {
   std::string text;  // UTF-8
-  for (const char one : bytes) {
-    const auto byte = static_cast<unsigned char>(one);
+  for (const char character : bytes) {
+    const auto byte = static_cast<unsigned char>(character);
     if (byte >= 0x80) text += static_cast<char>(0xC0 | (byte >> 6));
     text += static_cast<char>(byte < 0x80 ? byte : 0x80 | (byte & 0x3F));
   }

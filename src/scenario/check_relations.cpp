@@ -16,15 +16,15 @@ namespace {
 constexpr std::string_view of_servos = "gimbal.servo.";
 
 // A servo and the path to its keys.
-struct OneServo {
+struct ServoAt {
   const Servo* servo;
   std::string path;
 };
 
 // The servo of both axes, or of each, and those of legs.
-std::vector<OneServo> all_servos(const Scenario& scenario) {
+std::vector<ServoAt> all_servos(const Scenario& scenario) {
   const Gimbal& gimbal = scenario.gimbal;
-  std::vector<OneServo> servos;
+  std::vector<ServoAt> servos;
   if (!gimbal.servo) return servos;
   servos.push_back({&*gimbal.servo, "gimbal.servo.phi"});
   if (gimbal.theta_servo) servos.push_back({&*gimbal.theta_servo, "gimbal.servo.theta"});
@@ -45,8 +45,8 @@ struct Check {
 
 std::vector<Check> checks_of(std::span<const KeyRelation> relations) {
   std::vector<Check> checks;
-  for (const KeyRelation& one : relations) {
-    checks.push_back({&one, conditions(one.keys), conditions(one.others), false});
+  for (const KeyRelation& relation : relations) {
+    checks.push_back({&relation, conditions(relation.keys), conditions(relation.others), false});
     for (const auto& all : checks.back().keys) {
       checks.back().of_servo |= all.front().servo != nullptr;
     }
@@ -66,8 +66,8 @@ class Checker {
       return report_one(check);
     }
     bool broken = false;
-    for (const OneServo& one : servos_) {
-      servo_ = &one;
+    for (const ServoAt& servo : servos_) {
+      servo_ = &servo;
       broken = (controlled_ && report_one(check)) || broken;
     }
     return broken;
@@ -85,13 +85,12 @@ class Checker {
     return any.empty() || std::ranges::any_of(any, [&](const auto& all) { return hold(all); });
   }
   [[nodiscard]] bool hold(const std::vector<Condition>& all) const {
-    return std::ranges::all_of(all, [&](const Condition& one) { return holds(one); });
+    return std::ranges::all_of(all, [&](const Condition& condition) { return holds(condition); });
   }
   [[nodiscard]] bool holds(const Condition& condition) const {
     if (const ServoKey* const key = condition.servo) {
       if (servo_ != nullptr) return key->holds(*servo_->servo);
-      return std::ranges::any_of(servos_,
-                                 [&](const OneServo& one) { return key->holds(*one.servo); });
+      return std::ranges::any_of(servos_, [&](const ServoAt& at) { return key->holds(*at.servo); });
     }
     const yaml::Node* const node = node_at(condition.path);
     if (node == nullptr) return condition.or_absent;
@@ -168,10 +167,10 @@ class Checker {
   }
 
   const yaml::Value& root_;
-  std::vector<OneServo> servos_;
+  std::vector<ServoAt> servos_;
   bool controlled_;
-  const OneServo* servo_ = nullptr;  // the one that is checked
-  std::set<std::string> reported_;   // the keys with a message
+  const ServoAt* servo_ = nullptr;  // the one that is checked
+  std::set<std::string> reported_;  // the keys with a message
 };
 
 }  // namespace

@@ -209,10 +209,10 @@ Json at(std::string_view path, const Json& schema, bool must_be_there) {
   const Json inner =
       dot == std::string_view::npos ? schema : at(path.substr(dot + 1), schema, must_be_there);
   const auto with = [&](const std::string& name) {
-    Json one = Json::object();
-    if (!inner.is_null()) one["properties"] = {{name, inner}};
-    if (must_be_there) one.update({{"type", "object"}, {"required", {name}}});
-    return one;
+    Json outer = Json::object();
+    if (!inner.is_null()) outer["properties"] = {{name, inner}};
+    if (must_be_there) outer.update({{"type", "object"}, {"required", {name}}});
+    return outer;
   };
   const auto other = yaml::other_spelling(key);
   if (!other) return with(key);

@@ -334,8 +334,8 @@ struct AssumesRule {
 struct CommandLimit {
   bool of_angle;
 
-  [[nodiscard]] std::string allowed() const { return one() + ", or {phi: ..., theta: ...}"; }
-  [[nodiscard]] std::string one() const {
+  [[nodiscard]] std::string allowed() const { return single() + ", or {phi: ..., theta: ...}"; }
+  [[nodiscard]] std::string single() const {
     return of_angle ? yaml::angle_limit({.above = 0}).allowed() : number().allowed();
   }
   [[nodiscard]] static yaml::Number number() {
@@ -343,12 +343,13 @@ struct CommandLimit {
   }
   // Declares angles. limit_of_numbers() in json_schema.cpp refuses units for other commands.
   [[nodiscard]] static yaml::Declared declared() {
-    const auto one = yaml::Declared::number(yaml::Dimension::angle, {.above = 0});
+    const auto angle = yaml::Declared::number(yaml::Dimension::angle, {.above = 0});
     yaml::Declared axes(yaml::Declared::Kind::mapping);
     constexpr yaml::About about{"the same for one axis", "of the command"};
-    axes.keys = {{"phi", one, false, {}, false, about}, {"theta", one, false, {}, false, about}};
+    axes.keys = {{"phi", angle, false, {}, false, about},
+                 {"theta", angle, false, {}, false, about}};
     axes.choices = {{{{"phi", "theta"}}, true}};
-    return yaml::Declared::any({one, axes});
+    return yaml::Declared::any({angle, axes});
   }
   bool read_one(const yaml::Value& value, double& into) const {
     return of_angle ? yaml::angle_limit({.above = 0}).read(value, into)

@@ -164,17 +164,17 @@ std::vector<Declaration> declarations_of(const Tokens& tokens) {
       ++i;
       continue;
     }
-    Declaration one{i, i, 0, conditions};
+    Declaration declaration{i, i, 0, conditions};
     while (i < tokens.size() && !tokens[i].is(";") && !tokens[i].is("{") &&
            tokens[i].kind != Token::Kind::directive) {
       ++i;
     }
-    one.head = i;
+    declaration.head = i;
     if (i < tokens.size() && tokens[i].is("{")) i = after_brace(tokens, i);
     if (i < tokens.size() && tokens[i].is(";")) ++i;
-    one.end = std::max(i, one.begin + 1);
-    i = one.end;
-    found.push_back(one);
+    declaration.end = std::max(i, declaration.begin + 1);
+    i = declaration.end;
+    found.push_back(declaration);
   }
   return found;
 }
@@ -186,20 +186,20 @@ struct Function {
   std::size_t close;  // and the ")"
 };
 
-std::optional<Function> function_of(const Tokens& tokens, const Declaration& one) {
+std::optional<Function> function_of(const Tokens& tokens, const Declaration& declaration) {
   static constexpr std::string_view others[] = {"template", "typedef", "using",     "namespace",
                                                 "operator", "auto",    "constexpr", "="};
-  std::size_t close = one.head;
-  while (close > one.begin && tokens[close - 1].is("noexcept")) --close;
-  if (close == one.begin || !tokens[close - 1].is(")")) return {};
+  std::size_t close = declaration.head;
+  while (close > declaration.begin && tokens[close - 1].is("noexcept")) --close;
+  if (close == declaration.begin || !tokens[close - 1].is(")")) return {};
   --close;
   std::size_t open = close;
-  for (int depth = 0; open > one.begin; --open) {
+  for (int depth = 0; open > declaration.begin; --open) {
     if (tokens[open].is(")")) ++depth;
     if (tokens[open].is("(") && --depth == 0) break;
   }
-  if (open < one.begin + 2) return {};  // has no return type
-  for (std::size_t i = one.begin; i < open; ++i) {
+  if (open < declaration.begin + 2) return {};  // has no return type
+  for (std::size_t i = declaration.begin; i < open; ++i) {
     if (std::ranges::find(others, tokens[i].text) != std::end(others)) return {};
   }
   const Token& name = tokens[open - 1];
@@ -209,11 +209,12 @@ std::optional<Function> function_of(const Tokens& tokens, const Declaration& one
 }
 
 // Leaves out default arguments, because the definition repeats them.
-std::string prototype_of(const Tokens& tokens, const Declaration& one, const Function& function) {
+std::string prototype_of(const Tokens& tokens, const Declaration& declaration,
+                         const Function& function) {
   std::string text;
   int depth = 0;
   bool by_default = false;
-  for (std::size_t i = one.begin; i <= function.close; ++i) {
+  for (std::size_t i = declaration.begin; i <= function.close; ++i) {
     const Token& token = tokens[i];
     if (i > function.open && i < function.close) {
       if (token.is("(") || token.is("{") || token.is("[")) ++depth;
@@ -252,14 +253,14 @@ void keep_first(std::vector<std::size_t>& users, const Tokens& tokens,
                 const std::vector<Declaration>& declarations, std::string_view name) {
   std::vector<std::size_t> first;
   for (const std::size_t k : users) {
-    const Declaration& one = declarations[k];
-    const auto its = function_of(tokens, one);
+    const Declaration& declaration = declarations[k];
+    const auto its = function_of(tokens, declaration);
     if (its && its->name == name) {
-      if (one.head == tokens.size() || !tokens[one.head].is("{")) break;
+      if (declaration.head == tokens.size() || !tokens[declaration.head].is("{")) break;
       continue;  // an overload
     }
     first.push_back(k);
-    if (one.conditions == 0) break;
+    if (declaration.conditions == 0) break;
   }
   users = std::move(first);
 }
@@ -311,12 +312,12 @@ std::string joined(const std::vector<SketchFile>& files) {
   std::unordered_set<std::string_view> cut;       // names whose uses keep_first() has seen
   std::map<std::size_t, std::string> prototypes;  // by their offsets in the text
   for (std::size_t i = 0; i < declarations.size(); ++i) {
-    const Declaration& one = declarations[i];
-    if (one.head == tokens.size() || !tokens[one.head].is("{")) continue;
-    const auto function = function_of(tokens, one);
+    const Declaration& declaration = declarations[i];
+    if (declaration.head == tokens.size() || !tokens[declaration.head].is("{")) continue;
+    const auto function = function_of(tokens, declaration);
     if (!function) continue;
-    const std::string prototype =
-        whole.place(tokens[one.begin].offset) + prototype_of(tokens, one, *function) + '\n';
+    const std::string prototype = whole.place(tokens[declaration.begin].offset) +
+                                  prototype_of(tokens, declaration, *function) + '\n';
     std::vector<std::size_t>& users = uses[function->name];
     if (cut.insert(function->name).second) keep_first(users, tokens, declarations, function->name);
     for (const std::size_t k : users) {

@@ -433,8 +433,9 @@ Linearization linearize(const Scenario& scene, const Model& model, LinearKind ki
   Linearization linearization = linearize_as(scene, model, kind, at, parts);
   std::vector<LinearSystem*> all{&linearization.system};
   for (LoopMargins& loop : linearization.margins) all.push_back(&loop.open);
-  for (LinearSystem* const one : all) {
-    for (MatrixXd* const matrix : {&one->a, &one->b, &one->c, &one->d}) matrix->array() += 0.0;
+  for (LinearSystem* const system : all) {
+    for (MatrixXd* const matrix : {&system->a, &system->b, &system->c, &system->d})
+      matrix->array() += 0.0;
   }
   make_zeros_plain(linearization.poles);
   make_zeros_plain(linearization.zeros);

@@ -66,12 +66,12 @@ void forget(void* thread) {
 }
 
 pthread_key_t key() {
-  static const pthread_key_t made = [] {
-    pthread_key_t one{};
-    pthread_key_create(&one, forget);
-    return one;
+  static const pthread_key_t own = [] {
+    pthread_key_t created{};
+    pthread_key_create(&created, forget);
+    return created;
   }();
-  return made;
+  return own;
 }
 
 // The signals by which code crashes, and what they did before.

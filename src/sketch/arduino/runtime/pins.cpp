@@ -103,9 +103,9 @@ int unheard_pin(size_t n) {
 
 Drive drive_of(int pin) {
   if (pin < 0) return Drive::none;
-  const Pin& one = state[pin];
-  if (one.output) return one.high ? Drive::high : Drive::low;
-  return one.high ? Drive::pull_up : Drive::none;
+  const Pin& wired = state[pin];
+  if (wired.output) return wired.high ? Drive::high : Drive::low;
+  return wired.high ? Drive::pull_up : Drive::none;
 }
 
 const char* pin_name(int pin) {

@@ -34,16 +34,16 @@ bool read_number(const char* text, double& number) {
 void read_numbers(const char* line) {
   for (const char* at = line; (at = strchr(at, ':')) != nullptr; ++at) {
     for (size_t i = 0; i < watched_count; ++i) {
-      Watched& one = watched[i];
-      const auto length = static_cast<ptrdiff_t>(strlen(one.name));
+      Watched& variable = watched[i];
+      const auto length = static_cast<ptrdiff_t>(strlen(variable.name));
       if (at - line < length) continue;
       const char* const start = at - length;
-      if (strncmp(start, one.name, static_cast<size_t>(length)) != 0) continue;
+      if (strncmp(start, variable.name, static_cast<size_t>(length)) != 0) continue;
       if (start > line && strchr(", \t", start[-1]) == nullptr) continue;
       double number = 0;
       if (!read_number(at + 1, number)) continue;
-      one.value = number;
-      one.printed = true;
+      variable.value = number;
+      variable.printed = true;
     }
   }
 }
