@@ -18,7 +18,6 @@
 #include "record/log_distance.hpp"
 #include "record/stored_run.hpp"
 #include "record/summarise.hpp"
-#include "results/result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
 #include "scenario/measures.hpp"

@@ -9,7 +9,6 @@
 
 #include "api/check.hpp"
 #include "api/measure.hpp"
-#include "api/run.hpp"
 #include "api/version.hpp"
 #include "base/error.hpp"
 #include "base/quoted.hpp"

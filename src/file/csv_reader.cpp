@@ -8,7 +8,6 @@
 #include <array>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string_view>
 #include <unordered_set>
 

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <string_view>
 
 #include "base/error.hpp"
 #include "base/quoted.hpp"

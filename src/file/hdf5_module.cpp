@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <mutex>
 #include <string_view>
-#include <vector>
 
 #include "file/share_folders.hpp"
 

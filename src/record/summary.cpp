@@ -4,7 +4,6 @@
 #include "record/summary.hpp"
 
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "base/json.hpp"
 #include "base/number_text.hpp"

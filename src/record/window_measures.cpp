@@ -3,7 +3,6 @@
 
 #include "record/window_measures.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

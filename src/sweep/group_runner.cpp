@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "solve/collocation/shrinking.hpp"
 #include "sweep/runners.hpp"

@@ -4,9 +4,7 @@
 // The CSV side of merge.hpp.
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <utility>
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"

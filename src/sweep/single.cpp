@@ -6,8 +6,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <span>
-#include <utility>
 
 #include "base/error.hpp"
 #include "base/real.hpp"
