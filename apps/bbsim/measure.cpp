@@ -13,7 +13,7 @@
 #include "api/run.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"

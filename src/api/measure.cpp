@@ -12,7 +12,7 @@
 
 #include "api/run.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/table.hpp"
 #include "record/compare.hpp"
 #include "record/log_distance.hpp"

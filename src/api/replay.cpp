@@ -11,7 +11,6 @@
 #include "api/measure.hpp"
 #include "api/version.hpp"
 #include "base/error.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"
 #include "record/log_distance.hpp"

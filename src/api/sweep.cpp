@@ -13,7 +13,7 @@
 #include "api/run.hpp"
 #include "api/sweep_text.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "scenario/measures.hpp"

@@ -9,7 +9,7 @@
 
 #include "api/version.hpp"
 #include "base/json.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "record/summary.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"

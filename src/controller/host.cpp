@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "controller/library.hpp"
 #include "controller/program.hpp"

@@ -12,7 +12,6 @@
 #include <unordered_set>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/csv_fields.hpp"
 #include "file/format.hpp"

@@ -12,7 +12,7 @@
 #include <cstddef>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/descriptor.hpp"
 #include "file/target.hpp"
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/atomic_file.hpp"
 

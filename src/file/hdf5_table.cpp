@@ -14,7 +14,7 @@
 #include <iterator>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/descriptor.hpp"
 #include "file/format.hpp"
 #include "file/hdf5/interface.hpp"

@@ -11,7 +11,7 @@
 #include <cerrno>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/descriptor.hpp"
 
 namespace bbsim::file {

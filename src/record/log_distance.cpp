@@ -12,7 +12,6 @@
 #include "base/error.hpp"
 #include "base/maxima.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "record/compare.hpp"
 #include "scenario/log_columns.hpp"

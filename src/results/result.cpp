@@ -17,7 +17,6 @@
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/real.hpp"
 #include "base/text.hpp"
 #include "file/format.hpp"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::sweep {
 namespace {

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 
 namespace bbsim::yaml {

@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/hdf5/attributes.hpp"
 #include "file/hdf5/names.hpp"
 
