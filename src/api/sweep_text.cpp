@@ -17,8 +17,6 @@
 namespace bbsim::api {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // Length of the longest word in bytes. HDF5 writes strings of one length many times faster.
 constexpr std::size_t longest_status = 16;
 

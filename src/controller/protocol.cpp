@@ -18,8 +18,6 @@
 namespace bbsim::controller {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // Writes a number with a point or an exponent, so that no reader takes it for an integer, which
 // would lose the sign of -0.
 char* write_real(char* to, double value) {

@@ -15,7 +15,6 @@ namespace {
 
 using model::LinearSignal;
 using model::LinearSystem;
-using Json = nlohmann::ordered_json;
 using Signals = std::vector<LinearSignal>;
 
 Json json_of(const Eigen::MatrixXd& matrix) {

@@ -11,8 +11,6 @@
 namespace bbsim::record {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // The members of each part, once for both formats.
 Json members_of(const RunSummary& summary) {
   Json json = {{"version", summary.version},

@@ -16,8 +16,6 @@
 namespace bbsim::replay {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t most_rows = 20000;
 constexpr std::size_t most_bytes = 2'400'000;
 constexpr std::size_t most_cases = 40000;

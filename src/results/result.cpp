@@ -30,7 +30,6 @@ namespace bbsim::results {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 bool is_hdf5(const std::string& file) {
   return file::format_of(file) == file::Format::hdf5;

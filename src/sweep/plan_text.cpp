@@ -11,8 +11,6 @@
 namespace bbsim::sweep {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string instruction_set_of(const Json& plan) {
   const auto found = plan.find("instruction_set");
   return found != plan.end() && found->is_string() ? found->get<std::string>() : "unknown";
