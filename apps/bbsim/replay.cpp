@@ -13,7 +13,7 @@
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
-#include "file/format.hpp"
+#include "file/table_writer.hpp"
 #include "replay.hpp"
 #include "replay/page.hpp"
 #include "replay/template.hpp"

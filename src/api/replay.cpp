@@ -12,7 +12,6 @@
 #include "api/version.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "file/format.hpp"
 #include "record/log_distance.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"

@@ -14,8 +14,8 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "file/csv_fields.hpp"
-#include "file/format.hpp"
 #include "file/line_reader.hpp"
+#include "file/table_writer.hpp"
 
 namespace bbsim::file {
 namespace {

@@ -14,10 +14,10 @@
 #include <system_error>
 
 #include "base/error.hpp"
-#include "file/external.hpp"
+#include "file/descriptor.hpp"
 #include "file/leftovers.hpp"
 #include "file/share_folders.hpp"
-#include "file/whole_file.hpp"
+#include "file/start_process.hpp"
 #include "sketch/source.hpp"
 
 namespace bbsim::sketch {

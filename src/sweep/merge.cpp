@@ -10,7 +10,6 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "file/format.hpp"
 #include "file/table_writer.hpp"
 #include "file/target.hpp"
 #include "sweep/merge_parts.hpp"

@@ -10,8 +10,8 @@
 #include "base/number_text.hpp"
 #include "file/atomic_file.hpp"
 #include "file/csv_fields.hpp"
+#include "file/descriptor.hpp"
 #include "file/line_reader.hpp"
-#include "file/whole_file.hpp"
 #include "sweep/merge_parts.hpp"
 #include "sweep/plan_text.hpp"
 

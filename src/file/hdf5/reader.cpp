@@ -11,8 +11,6 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "file/hdf5/attributes.hpp"
-#include "file/hdf5/names.hpp"
 
 namespace bbsim::file::hdf5 {
 namespace {
