@@ -16,7 +16,7 @@
 #include "scenario/measures.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/sweep.hpp"
-#include "sweep/sweep_measures.hpp"
+#include "sweep/task.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim::api {

@@ -20,7 +20,6 @@
 #include "scenario/variation.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/case_file.hpp"
-#include "sweep/sweep_measures.hpp"
 
 namespace bbsim::api {
 namespace {

@@ -14,7 +14,6 @@
 #include "record/recorder.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
-#include "sweep/case_scenario.hpp"
 #include "sweep/runners.hpp"
 
 namespace bbsim::sweep {
