@@ -67,6 +67,12 @@ std::vector<const scenario::Column*> with_columns_of(
   return columns;
 }
 
+std::optional<std::size_t> position_of(const std::vector<std::string>& names, const char* name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {};
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 }  // namespace
 
 Recorder::Recorder(RecordRequest request)
@@ -185,16 +191,6 @@ std::optional<MotorPeaks> Recorder::peaks() const {
   };
   return MotorPeaks{peak(0), peak(1), peak(2), with_plate_};
 }
-
-namespace {
-
-std::optional<std::size_t> position_of(const std::vector<std::string>& names, const char* name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return {};
-  return static_cast<std::size_t>(found - names.begin());
-}
-
-}  // namespace
 
 bool EdgeNote::wanted(const Scenario& scenario) {
   return (scenario.plate.size || scenario.plate.diameter) && !scenario.events.edge;
