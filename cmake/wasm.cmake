@@ -30,4 +30,4 @@ target_include_directories(bbsim_yaml_cpp SYSTEM PUBLIC ${BBSIM_WASM_DEPS}/yaml-
 target_compile_options(bbsim_yaml_cpp PRIVATE -fwasm-exceptions -w)
 
 # Sources whose functions wasm/absent.cpp replaces or that nothing in a page calls.
-set(BBSIM_NOT_IN_PAGES "solve/cvode/|file/start_process|controller/(child|program|library|foreign_code|host)|study/(accuracy|reference|verify)|api/(accuracy|fiber|stepped_run|environments|run_sensitivity)")
+set(BBSIM_NOT_IN_PAGES "solve/cvode/|file/start_process|controller/(child|program|library|foreign_code|host)|study/(accuracy|reference|verify)|api/(accuracy|stepped_run|environments|run_sensitivity)")

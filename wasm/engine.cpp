@@ -36,8 +36,6 @@
 namespace bbsim {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct Answer {
   std::string text;                         // JSON
   std::vector<std::vector<double>> arrays;  // which the JSON names by their places

@@ -80,31 +80,6 @@ ExitCode accuracy(const AccuracyArguments& arguments, const Options& options) {
   return ExitCode::ended_early;
 }
 
-}  // namespace
-
-void add_accuracy(Command& command, const Options& options) {
-  command.footer(
-      "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
-      "precision, or by CVODE at rtol 1e-13 for scenarios that switch, then without resolutions of "
-      "commands and sensors. The time is the median processor time of repeated runs, without "
-      "files. atol is "
-      "rtol / 100. A second table names the fastest choice for each decade of error.\n"
-      "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
-      "jacobian_evaluations, status.");
-  AccuracyArguments& arguments = command.does(accuracy, options);
-  add_scenario(command, arguments.scenario);
-  command
-      .option("--methods NAME,...", arguments.methods,
-              "methods to compare: radau, bdf, adams; default: all")
-      .parted_by_commas();
-  command.option("--rtol LOOSEST:TIGHTEST", arguments.rtols, "tolerances, a decade apart")
-      .shows_default();
-  command.option("--csv FILE", arguments.csv,
-                 "write all points to FILE as CSV; - is standard output");
-}
-
-namespace {
-
 // Formats as printf does.
 template <class... Values>
 std::string formatted(const char* format, const Values&... values) {
@@ -186,6 +161,27 @@ ExitCode verify(const ScenarioArguments& arguments, const Options& options) {
 }
 
 }  // namespace
+
+void add_accuracy(Command& command, const Options& options) {
+  command.footer(
+      "The error is the largest |dx| or |dy| over the output times, against a solution in quad "
+      "precision, or by CVODE at rtol 1e-13 for scenarios that switch, then without resolutions of "
+      "commands and sensors. The time is the median processor time of repeated runs, without "
+      "files. atol is "
+      "rtol / 100. A second table names the fastest choice for each decade of error.\n"
+      "CSV columns: method, rtol, atol, error_m, time_us, steps, rhs_evaluations, "
+      "jacobian_evaluations, status.");
+  AccuracyArguments& arguments = command.does(accuracy, options);
+  add_scenario(command, arguments.scenario);
+  command
+      .option("--methods NAME,...", arguments.methods,
+              "methods to compare: radau, bdf, adams; default: all")
+      .parted_by_commas();
+  command.option("--rtol LOOSEST:TIGHTEST", arguments.rtols, "tolerances, a decade apart")
+      .shows_default();
+  command.option("--csv FILE", arguments.csv,
+                 "write all points to FILE as CSV; - is standard output");
+}
 
 void add_verify(Command& command, const Options& options) {
   ScenarioArguments& arguments = command.does(verify, options);

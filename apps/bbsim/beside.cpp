@@ -21,8 +21,6 @@
 namespace bbsim::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json table_of(const std::string& command) {
   return parse_json(text_of(command_tables(), "commands.json")).at(command);
 }

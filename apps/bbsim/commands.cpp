@@ -10,7 +10,6 @@
 
 #include "api/check.hpp"
 #include "api/run.hpp"
-#include "file/atomic_file.hpp"
 #include "results/result.hpp"
 #include "scenario/reader.hpp"
 #include "terminal.hpp"

@@ -6,10 +6,8 @@
 // their validators at every program start, and compiles seconds longer.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>

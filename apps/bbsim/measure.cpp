@@ -13,7 +13,7 @@
 #include "api/run.hpp"
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
 #include "file/outputs.hpp"
@@ -50,6 +50,58 @@ ExitCode measure(const MeasureArguments& arguments, const Options& options) {
   if (options.quiet) return ExitCode::done;
   for (const std::string& note : notes) say(note);
   for (const std::string& note : measured.notes) say(note);
+  return ExitCode::done;
+}
+
+struct CompareArguments {
+  api::CompareRequest request;
+  std::vector<std::string> overrides;
+};
+
+ExitCode compare(const CompareArguments& arguments, const Options& all) {
+  api::CompareRequest request = arguments.request;
+  file::Outputs outputs;
+  outputs.reads(request.a, "A");
+  say_if_waiting(request.a, "a CSV", all.quiet);
+  if (api::is_scenario(request.b)) {
+    request.run = read({request.b, arguments.overrides}, all, outputs);
+  } else if (!arguments.overrides.empty()) {
+    throw InputError("--set: allowed with a scenario as B, in which it sets a key");
+  } else {
+    outputs.reads(request.b, "B");
+    say_if_waiting(request.b, "a CSV", all.quiet);
+  }
+  prints(outputs);
+  Progress progress(request.b, all.quiet || !request.run);
+  const api::Compared compared = api::compare(request, progress);
+  if (!compared.reason.empty()) say(compared.reason);
+  if (compared.code == ExitCode::interrupted) return compared.code;
+  print(compared.text);
+  if (!all.quiet) {
+    for (const std::string& warning : compared.warnings) say(warning);
+  }
+  return compared.alike ? compared.code : ExitCode::ended_early;
+}
+
+struct SummarizeArguments : api::SummarizeRequest {
+  std::string output = "-";
+};
+
+ExitCode summarize(const SummarizeArguments& arguments, const Options& options) {
+  if (!arguments.output.ends_with(".csv") && arguments.output != "-") {
+    throw InputError("-o: found " + arguments.output +
+                     "; allowed: FILE.csv, or - for standard output");
+  }
+  for (const double part : arguments.quantiles) {
+    if (!(part >= 0 && part <= 1)) {
+      throw InputError("--quantiles: allowed: numbers from 0 to 1, such as 0.05,0.5,0.95");
+    }
+  }
+  file::Outputs outputs;
+  outputs.reads(arguments.file, "SWEEP");
+  outputs.writes(arguments.output, "-o");
+  say_if_waiting(arguments.file, "a CSV", options.quiet);
+  file::write_file(arguments.output, api::summarize(arguments));
   return ExitCode::done;
 }
 
@@ -99,40 +151,6 @@ void add_measure(Command& command, const Options& options) {
   add_log_options(command, arguments.log);
 }
 
-namespace {
-
-struct CompareArguments {
-  api::CompareRequest request;
-  std::vector<std::string> overrides;
-};
-
-ExitCode compare(const CompareArguments& arguments, const Options& all) {
-  api::CompareRequest request = arguments.request;
-  file::Outputs outputs;
-  outputs.reads(request.a, "A");
-  say_if_waiting(request.a, "a CSV", all.quiet);
-  if (api::is_scenario(request.b)) {
-    request.run = read({request.b, arguments.overrides}, all, outputs);
-  } else if (!arguments.overrides.empty()) {
-    throw InputError("--set: allowed with a scenario as B, in which it sets a key");
-  } else {
-    outputs.reads(request.b, "B");
-    say_if_waiting(request.b, "a CSV", all.quiet);
-  }
-  prints(outputs);
-  Progress progress(request.b, all.quiet || !request.run);
-  const api::Compared compared = api::compare(request, progress);
-  if (!compared.reason.empty()) say(compared.reason);
-  if (compared.code == ExitCode::interrupted) return compared.code;
-  print(compared.text);
-  if (!all.quiet) {
-    for (const std::string& warning : compared.warnings) say(warning);
-  }
-  return compared.alike ? compared.code : ExitCode::ended_early;
-}
-
-}  // namespace
-
 void add_compare(Command& command, const Options& all) {
   command.footer(
       "bbsim matches columns by name and rows by position. Values a and b are alike if |a - b| <= "
@@ -172,32 +190,6 @@ void add_compare(Command& command, const Options& all) {
   add_log_options(command, request.log);
   add_overrides(command, arguments.overrides);
 }
-
-namespace {
-
-struct SummarizeArguments : api::SummarizeRequest {
-  std::string output = "-";
-};
-
-ExitCode summarize(const SummarizeArguments& arguments, const Options& options) {
-  if (!arguments.output.ends_with(".csv") && arguments.output != "-") {
-    throw InputError("-o: found " + arguments.output +
-                     "; allowed: FILE.csv, or - for standard output");
-  }
-  for (const double part : arguments.quantiles) {
-    if (!(part >= 0 && part <= 1)) {
-      throw InputError("--quantiles: allowed: numbers from 0 to 1, such as 0.05,0.5,0.95");
-    }
-  }
-  file::Outputs outputs;
-  outputs.reads(arguments.file, "SWEEP");
-  outputs.writes(arguments.output, "-o");
-  say_if_waiting(arguments.file, "a CSV", options.quiet);
-  file::write_file(arguments.output, api::summarize(arguments));
-  return ExitCode::done;
-}
-
-}  // namespace
 
 void add_summarize(Command& command, const Options& options) {
   command.footer(

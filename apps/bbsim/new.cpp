@@ -137,60 +137,6 @@ ExitCode make(const NewArguments& arguments, const Options& options) {
   return make_controller(arguments, options);
 }
 
-}  // namespace
-
-void add_new(Command& command, const Options& options) {
-  NewArguments& arguments = command.does(make, options);
-  command.option("WHAT", arguments.what, "controller or rig")
-      .required()
-      .takes_one_of({"controller", "rig"});
-  command.option("LANGUAGE", arguments.language, "for a controller: python, c or arduino")
-      .takes_one_of({"python", "c", "arduino"});
-  command.option("-o,--output FILE", arguments.output,
-                 "write it to FILE; default: controller.py, controller.c, controller.ino or "
-                 "my-rig.yaml, in the current folder; - is standard output");
-  command.flag("--force", arguments.force,
-               "replace files that -o does not name, whatever they contain");
-  RigWords& rig = arguments.rig;
-  command.option(
-      "--plate SIZE", rig["--plate"],
-      "for a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 mm\"");
-  command.option("--ball BALL", rig["--ball"],
-                 "for a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such "
-                 "as \"40 mm 2.7 g\"; hollow or solid may follow");
-  command
-      .option("--actuator", rig["--actuator"],
-              "for a rig: servo (default), or stepper: stepper motors")
-      .takes_one_of({"servo", "stepper"});
-  command
-      .option("--servo", rig["--servo"],
-              "for a rig: hobby-standard (default), hobby-micro or smart-serial; of stepper "
-              "motors: nema14, nema17 or nema23")
-      .takes_one_of(servo_classes());
-  const Option camera = command.option("--camera RATE", rig["--camera"],
-                                       "for a rig: frames per second; default: \"30 Hz\"");
-  command
-      .option("--touch RATE", rig["--touch"],
-              "for a rig: a touch screen instead of a camera, and its readings per second")
-      .excludes(camera);
-  command
-      .option("--legs", rig["--legs"],
-              "for a rig: 2 servos with push rods on a gimbal (default), or 3 under the plate")
-      .takes_one_of({"2", "3"});
-  command.footer(
-      "The controller balances the ball of the scenario that `bbsim examples step` writes. An "
-      "Arduino sketch comes with a wiring, FILE-wiring.yaml.\n"
-      "The rig is a scenario whose comments say how to find the numbers of yours; its gains suit "
-      "its delays. On a terminal, bbsim asks for each option of the rig if you give none.\n"
-      "\n"
-      "Examples:\n"
-      "  bbsim new controller python\n"
-      "  bbsim new rig\n"
-      "  bbsim new rig --plate \"250 mm\" --ball steel --touch \"50 Hz\" -o disc.yaml");
-}
-
-namespace {
-
 constexpr std::string_view ending = ".yaml";
 
 struct ExampleArguments {
@@ -275,6 +221,56 @@ ExitCode examples(const ExampleArguments& arguments, const Options& options) {
 }
 
 }  // namespace
+
+void add_new(Command& command, const Options& options) {
+  NewArguments& arguments = command.does(make, options);
+  command.option("WHAT", arguments.what, "controller or rig")
+      .required()
+      .takes_one_of({"controller", "rig"});
+  command.option("LANGUAGE", arguments.language, "for a controller: python, c or arduino")
+      .takes_one_of({"python", "c", "arduino"});
+  command.option("-o,--output FILE", arguments.output,
+                 "write it to FILE; default: controller.py, controller.c, controller.ino or "
+                 "my-rig.yaml, in the current folder; - is standard output");
+  command.flag("--force", arguments.force,
+               "replace files that -o does not name, whatever they contain");
+  RigWords& rig = arguments.rig;
+  command.option(
+      "--plate SIZE", rig["--plate"],
+      "for a rig: sides along x and y, or the diameter of a disc; default: \"300 mm x 200 mm\"");
+  command.option("--ball BALL", rig["--ball"],
+                 "for a rig: ping-pong (default), steel, rubber, golf, or diameter and mass, such "
+                 "as \"40 mm 2.7 g\"; hollow or solid may follow");
+  command
+      .option("--actuator", rig["--actuator"],
+              "for a rig: servo (default), or stepper: stepper motors")
+      .takes_one_of({"servo", "stepper"});
+  command
+      .option("--servo", rig["--servo"],
+              "for a rig: hobby-standard (default), hobby-micro or smart-serial; of stepper "
+              "motors: nema14, nema17 or nema23")
+      .takes_one_of(servo_classes());
+  const Option camera = command.option("--camera RATE", rig["--camera"],
+                                       "for a rig: frames per second; default: \"30 Hz\"");
+  command
+      .option("--touch RATE", rig["--touch"],
+              "for a rig: a touch screen instead of a camera, and its readings per second")
+      .excludes(camera);
+  command
+      .option("--legs", rig["--legs"],
+              "for a rig: 2 servos with push rods on a gimbal (default), or 3 under the plate")
+      .takes_one_of({"2", "3"});
+  command.footer(
+      "The controller balances the ball of the scenario that `bbsim examples step` writes. An "
+      "Arduino sketch comes with a wiring, FILE-wiring.yaml.\n"
+      "The rig is a scenario whose comments say how to find the numbers of yours; its gains suit "
+      "its delays. On a terminal, bbsim asks for each option of the rig if you give none.\n"
+      "\n"
+      "Examples:\n"
+      "  bbsim new controller python\n"
+      "  bbsim new rig\n"
+      "  bbsim new rig --plate \"250 mm\" --ball steel --touch \"50 Hz\" -o disc.yaml");
+}
 
 void add_examples(Command& command, const Options& options) {
   ExampleArguments& arguments = command.does(examples, options);

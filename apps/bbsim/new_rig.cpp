@@ -15,7 +15,6 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "embedded.hpp"

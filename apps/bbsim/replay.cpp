@@ -13,7 +13,7 @@
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "file/default_name.hpp"
-#include "file/format.hpp"
+#include "file/table_writer.hpp"
 #include "replay.hpp"
 #include "replay/page.hpp"
 #include "replay/template.hpp"
@@ -36,37 +36,6 @@ std::string content_text(const replay::Scene& scene) {
   const std::string text = counted(rows, "row");
   return scene.runs.size() == 1 ? text : std::to_string(scene.runs.size()) + " runs, " + text;
 }
-
-}  // namespace
-
-void require_replay_ending(const std::string& file, const std::string& option) {
-  if (file == "-" || file::lower_ending(file) == ".html") return;
-  const std::string instead = instead_of(file::lower_ending(file));
-  throw InputError(option + ": found " + file +
-                   (instead.empty() ? "; allowed: a name that ends in .html" : ": " + instead));
-}
-
-void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {
-  outputs.reads(replay::file_of_template(replay::replay_name), "the template of pages");
-  outputs.reads(replay::file_of_template(replay::engine_name), "the engine of live pages");
-  outputs.writes(file, what);
-}
-
-ReplayFile::ReplayFile(const std::string& target, bool live)
-    : target_(target),
-      template_(replay::read_template(replay::replay_name)),
-      engine_(live ? replay::read_template(replay::engine_name) : ""),
-      file_(target) {}
-
-void ReplayFile::write(const replay::Scene& scene, bool quiet) {
-  const std::string content = replay::page(scene, template_, engine_);
-  file_.write(content);
-  file_.commit();
-  if (quiet || target_ == "-") return;
-  say(target_ + ": " + content_text(scene) + ", " + size_text(content.size()));
-}
-
-namespace {
 
 struct ReplayArguments {
   std::vector<std::string> files;
@@ -120,6 +89,33 @@ ExitCode replay_files(const ReplayArguments& arguments, const Options& options) 
 }
 
 }  // namespace
+
+void require_replay_ending(const std::string& file, const std::string& option) {
+  if (file == "-" || file::lower_ending(file) == ".html") return;
+  const std::string instead = instead_of(file::lower_ending(file));
+  throw InputError(option + ": found " + file +
+                   (instead.empty() ? "; allowed: a name that ends in .html" : ": " + instead));
+}
+
+void declare_replay(file::Outputs& outputs, const std::string& file, const std::string& what) {
+  outputs.reads(replay::file_of_template(replay::replay_name), "the template of pages");
+  outputs.reads(replay::file_of_template(replay::engine_name), "the engine of live pages");
+  outputs.writes(file, what);
+}
+
+ReplayFile::ReplayFile(const std::string& target, bool live)
+    : target_(target),
+      template_(replay::read_template(replay::replay_name)),
+      engine_(live ? replay::read_template(replay::engine_name) : ""),
+      file_(target) {}
+
+void ReplayFile::write(const replay::Scene& scene, bool quiet) {
+  const std::string content = replay::page(scene, template_, engine_);
+  file_.write(content);
+  file_.commit();
+  if (quiet || target_ == "-") return;
+  say(target_ + ": " + content_text(scene) + ", " + size_text(content.size()));
+}
 
 void add_replay(Command& command, const Options& options) {
   command.footer(

@@ -6,14 +6,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "file/atomic_file.hpp"
@@ -222,6 +220,26 @@ ExitCode sweep(const SweepArguments& arguments, const Options& options) {
   return result.code;
 }
 
+struct MergeArguments {
+  std::vector<std::string> parts;
+  std::string output;
+};
+
+ExitCode merge(const MergeArguments& arguments, const Options& options) {
+  Progress progress("merge", options.quiet);
+  const auto merged = api::merge(arguments.parts, arguments.output, progress);
+  if (!merged.note.empty() && !options.quiet) say(merged.note);
+  if (merged.interrupted) {
+    say("interrupted; nothing was written.");
+    return ExitCode::interrupted;
+  }
+  if (!options.quiet) {
+    say(name_of_output(arguments.output) + ": " + counted(merged.cases, "case") + " from " +
+        counted(arguments.parts.size(), "part"));
+  }
+  return ExitCode::done;
+}
+
 }  // namespace
 
 void add_sweep(Command& command, const Options& options) {
@@ -289,30 +307,6 @@ void add_sweep(Command& command, const Options& options) {
                "also keep the output rows of each case (HDF5 only)");
   add_error(command, arguments.error);
 }
-
-namespace {
-
-struct MergeArguments {
-  std::vector<std::string> parts;
-  std::string output;
-};
-
-ExitCode merge(const MergeArguments& arguments, const Options& options) {
-  Progress progress("merge", options.quiet);
-  const auto merged = api::merge(arguments.parts, arguments.output, progress);
-  if (!merged.note.empty() && !options.quiet) say(merged.note);
-  if (merged.interrupted) {
-    say("interrupted; nothing was written.");
-    return ExitCode::interrupted;
-  }
-  if (!options.quiet) {
-    say(name_of_output(arguments.output) + ": " + counted(merged.cases, "case") + " from " +
-        counted(arguments.parts.size(), "part"));
-  }
-  return ExitCode::done;
-}
-
-}  // namespace
 
 void add_merge(Command& command, const Options& options) {
   MergeArguments& arguments = command.does(merge, options);

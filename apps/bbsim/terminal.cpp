@@ -13,7 +13,7 @@
 #include <new>
 
 #include "base/progress_line.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/atomic_file.hpp"
 
 namespace bbsim::app {

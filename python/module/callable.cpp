@@ -9,7 +9,7 @@
 
 #include "api/stepped_run.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "module.hpp"
 #include "scenario/columns.hpp"
 

@@ -21,7 +21,7 @@
 #include "api/run.hpp"
 #include "base/error.hpp"
 #include "base/progress_line.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "file/leftovers.hpp"

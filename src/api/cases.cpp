@@ -10,13 +10,13 @@
 #include "api/assemble.hpp"
 #include "api/sweep.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/real.hpp"
+#include "base/text.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/sweep.hpp"
-#include "sweep/sweep_measures.hpp"
+#include "sweep/task.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim::api {

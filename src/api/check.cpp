@@ -3,11 +3,9 @@
 
 #include "api/check.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -17,8 +15,6 @@
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "model/control/sample_times.hpp"
-#include "model/model.hpp"
-#include "model/spectrum.hpp"
 #include "scenario/exercise.hpp"
 #include "scenario/family.hpp"
 #include "solve/output_grid.hpp"

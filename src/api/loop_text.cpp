@@ -31,25 +31,6 @@ void add_pole(std::string& line, const std::complex<double>& pole, double larges
   }
 }
 
-}  // namespace
-
-std::string poles_line(const model::Eigenvalues& poles, bool sampled) {
-  std::string line;
-  std::size_t named = 0;
-  double largest = 0;
-  for (const auto& pole : poles) largest = std::max(largest, std::abs(pole));
-  for (const auto& pole : poles) {
-    if (is_named(pole)) continue;
-    const bool small = named == 6 || (named > 0 && std::abs(pole) < 1e-3);
-    if (sampled && small) return line + ", smaller ones";
-    add_pole(line, pole, largest);
-    ++named;
-  }
-  return line;
-}
-
-namespace {
-
 // The loop's poles, and how many of them lie beyond the border of stability.
 struct LoopPoles {
   bool sampled;
@@ -138,6 +119,21 @@ bool feeds_back_the_turn(const Scenario& scenario, const model::Model& model) {
 }
 
 }  // namespace
+
+std::string poles_line(const model::Eigenvalues& poles, bool sampled) {
+  std::string line;
+  std::size_t named = 0;
+  double largest = 0;
+  for (const auto& pole : poles) largest = std::max(largest, std::abs(pole));
+  for (const auto& pole : poles) {
+    if (is_named(pole)) continue;
+    const bool small = named == 6 || (named > 0 && std::abs(pole) < 1e-3);
+    if (sampled && small) return line + ", smaller ones";
+    add_pole(line, pole, largest);
+    ++named;
+  }
+  return line;
+}
 
 std::string instability_warning(const Scenario& scenario, const model::Model& model) {
   std::string warning = instability(model);

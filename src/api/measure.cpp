@@ -12,13 +12,12 @@
 
 #include "api/run.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/table.hpp"
 #include "record/compare.hpp"
 #include "record/log_distance.hpp"
 #include "record/stored_run.hpp"
 #include "record/summarise.hpp"
-#include "results/result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/log_columns.hpp"
 #include "scenario/measures.hpp"
@@ -90,43 +89,6 @@ void note_references(const record::StoredRun& run, const std::vector<scenario::M
                     std::string(measure.column->name) + " refer to its own value at the end");
   }
 }
-
-}  // namespace
-
-Measured measure(results::Result result, const std::string& file,
-                 const std::vector<std::string>& lists) {
-  const std::vector<std::string> requested = scenario::split_measures(lists);
-  if (result.is_sweep()) {
-    throw InputError(result.file +
-                     ": is a sweep; allowed: the result of a run. Measures of a sweep "
-                     "are its columns: bbsim summarize " +
-                     result.file);
-  }
-  const bool is_log = result.version.empty();
-  const std::vector<file::Column> texts = result.take_texts();
-  try {
-    const record::StoredRun run(std::move(result), file);
-    const auto measures = run.measures_named(requested);
-    Measured measured;
-    std::vector<double> values;
-    scenario::Whys whys;
-    for (const scenario::Measure& measure : measures) {
-      const record::Measured found = run.value_of(measure);
-      measured.values.emplace_back(measure.name, found.value);
-      values.push_back(found.value);
-      whys.push_back(found.why);
-    }
-    if (is_log) warn_of_units(run, measures, file, measured.notes);
-    note_references(run, measures, file, measured.notes);
-    const std::string not_measured = scenario::why_not_finite(measures, values.data(), whys);
-    if (!not_measured.empty()) measured.notes.push_back("note: " + not_measured);
-    return measured;
-  } catch (const InputError& error) {
-    refuse(error, file, requested, texts);
-  }
-}
-
-namespace {
 
 record::Allowances allowances_of(const CompareRequest& request, const file::Table& a,
                                  const file::Table& b) {
@@ -252,6 +214,39 @@ std::string log_note(const file::Table& table, const file::Table& run) {
 }
 
 }  // namespace
+
+Measured measure(results::Result result, const std::string& file,
+                 const std::vector<std::string>& lists) {
+  const std::vector<std::string> requested = scenario::split_measures(lists);
+  if (result.is_sweep()) {
+    throw InputError(result.file +
+                     ": is a sweep; allowed: the result of a run. Measures of a sweep "
+                     "are its columns: bbsim summarize " +
+                     result.file);
+  }
+  const bool is_log = result.version.empty();
+  const std::vector<file::Column> texts = result.take_texts();
+  try {
+    const record::StoredRun run(std::move(result), file);
+    const auto measures = run.measures_named(requested);
+    Measured measured;
+    std::vector<double> values;
+    scenario::Whys whys;
+    for (const scenario::Measure& measure : measures) {
+      const record::Measured found = run.value_of(measure);
+      measured.values.emplace_back(measure.name, found.value);
+      values.push_back(found.value);
+      whys.push_back(found.why);
+    }
+    if (is_log) warn_of_units(run, measures, file, measured.notes);
+    note_references(run, measures, file, measured.notes);
+    const std::string not_measured = scenario::why_not_finite(measures, values.data(), whys);
+    if (!not_measured.empty()) measured.notes.push_back("note: " + not_measured);
+    return measured;
+  } catch (const InputError& error) {
+    refuse(error, file, requested, texts);
+  }
+}
 
 std::string moved_text(const std::string& log, double offset) {
   return "note: " + log + ": moved by " + short_number(offset) + " s (--time-offset auto)";

@@ -9,12 +9,9 @@
 
 #include "api/check.hpp"
 #include "api/measure.hpp"
-#include "api/run.hpp"
 #include "api/version.hpp"
 #include "base/error.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
-#include "file/format.hpp"
 #include "record/log_distance.hpp"
 #include "replay/sources.hpp"
 #include "scenario/reader.hpp"
@@ -33,29 +30,6 @@ void describe_scene(replay::Run& run, const Scenario& scenario, bool checked = t
   replay::describe(run, scenario);
   if (checked) run.check = lines_of(to_text(describe(scenario)));
 }
-
-}  // namespace
-
-replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummary summary,
-                   const std::vector<double>& end_row, bool checked) {
-  for (std::size_t c = 0; c < end_row.size(); ++c) rows.columns[c].numbers.push_back(end_row[c]);
-  replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
-  run.has_end_row = !end_row.empty();
-  run.end_time = summary.end_time;
-  describe_scene(run, scenario, checked);
-  run.status = summary.status;
-  run.reason = summary.reason;
-  run.version = summary.version;
-  for (const model::Occurrence& event : summary.events) {
-    const model::BallMotion& ball = event.sample.ball;
-    run.events.push_back({event.name, event.stopped, event.t, ball.x, ball.y});
-  }
-  summary.scenario_text.clear();  // the run's scenario has it
-  run.summary = record::to_json(summary);
-  return run;
-}
-
-namespace {
 
 // Aligns the scene's last run, which is a log, with the first one if `align`. Returns sentences
 // about the shift and the distance to that run.
@@ -233,6 +207,25 @@ std::string title_of(const replay::Scene& scene) {
 }
 
 }  // namespace
+
+replay::Run run_of(const Scenario& scenario, file::Table rows, record::RunSummary summary,
+                   const std::vector<double>& end_row, bool checked) {
+  for (std::size_t c = 0; c < end_row.size(); ++c) rows.columns[c].numbers.push_back(end_row[c]);
+  replay::Run run = replay::run_of_table(std::move(rows), short_name(scenario.source.file));
+  run.has_end_row = !end_row.empty();
+  run.end_time = summary.end_time;
+  describe_scene(run, scenario, checked);
+  run.status = summary.status;
+  run.reason = summary.reason;
+  run.version = summary.version;
+  for (const model::Occurrence& event : summary.events) {
+    const model::BallMotion& ball = event.sample.ball;
+    run.events.push_back({event.name, event.stopped, event.t, ball.x, ball.y});
+  }
+  summary.scenario_text.clear();  // the run's scenario has it
+  run.summary = record::to_json(summary);
+  return run;
+}
 
 bool is_scenario(const std::string& file) {
   const std::string ending = file::lower_ending(file);

@@ -16,7 +16,6 @@
 #include "file/outputs.hpp"
 #include "file/table_writer.hpp"
 #include "record/summary.hpp"
-#include "replay/live.hpp"
 #include "replay/scene.hpp"
 #include "results/result.hpp"
 #include "scenario/columns.hpp"

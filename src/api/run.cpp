@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -114,6 +113,14 @@ class RowsTo : public file::TableWriter {
   file::TableWriter* next_;
 };
 
+// Declares the files that a scenario names.
+void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
+  for (const auto& [key, path] : scenario.tables) outputs.reads(path, "a table of the scenario");
+  for (const std::string& file : controller::files_of(scenario)) {
+    outputs.reads(file, "the scenario's controller");
+  }
+}
+
 }  // namespace
 
 RunResult run(const RunRequest& request, Watch& watch) {
@@ -218,18 +225,6 @@ RunResult run(const RunRequest& request, Watch& watch) {
   }
   return result;
 }
-
-namespace {
-
-// Declares the files that a scenario names.
-void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
-  for (const auto& [key, path] : scenario.tables) outputs.reads(path, "a table of the scenario");
-  for (const std::string& file : controller::files_of(scenario)) {
-    outputs.reads(file, "the scenario's controller");
-  }
-}
-
-}  // namespace
 
 void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario) {
   outputs.reads(file, "the scenario");

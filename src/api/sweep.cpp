@@ -13,14 +13,13 @@
 #include "api/run.hpp"
 #include "api/sweep_text.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/atomic_file.hpp"
 #include "file/default_name.hpp"
 #include "scenario/measures.hpp"
 #include "scenario/variation.hpp"
 #include "solve/output_grid.hpp"
 #include "sweep/case_file.hpp"
-#include "sweep/sweep_measures.hpp"
 
 namespace bbsim::api {
 namespace {

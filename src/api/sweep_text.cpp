@@ -9,15 +9,13 @@
 
 #include "api/version.hpp"
 #include "base/json.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "record/summary.hpp"
 #include "simd/instruction_set.hpp"
 #include "solve/output_grid.hpp"
 
 namespace bbsim::api {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Length of the longest word in bytes. HDF5 writes strings of one length many times faster.
 constexpr std::size_t longest_status = 16;

@@ -6,9 +6,6 @@
 #include <nlohmann/json.hpp>
 
 namespace bbsim {
-
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 // The nesting depth of JSON text. Meaningless for other text.

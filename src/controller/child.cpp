@@ -20,7 +20,7 @@
 #include <utility>
 
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "controller/foreign_code.hpp"
 #include "controller/protocol.hpp"
 #include "file/leftovers.hpp"

@@ -4,16 +4,17 @@
 #include "controller/host.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
+#include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "controller/library.hpp"
 #include "controller/program.hpp"
-#include "controller/serial_line.hpp"
 #include "scenario/columns.hpp"
 #include "yaml/spelling.hpp"
 
@@ -57,6 +58,109 @@ Setup serial_setup_of(const Scenario& scenario) {
 }
 
 }  // namespace
+
+// A program and a sketch that speak over the serial line of the sketch's board.
+class SerialLine : public model::ExternalController {
+ public:
+  // The setups are those of the two. Each column belongs to the program if its answer to the hello
+  // names it, and else to the sketch, whose setup gets the rest.
+  SerialLine(std::shared_ptr<Program> program, Setup of_program)
+      : program_(std::move(program)), setup_(std::move(of_program)) {
+    for (const auto& [name, unit] :
+         program_->ready().columns.value_or(std::vector<std::pair<std::string, std::string>>{})) {
+      if (std::ranges::find(setup_.columns, name) != setup_.columns.end()) {
+        program_columns_.push_back(name);
+      }
+    }
+    numbers_.resize(program_columns_.size());
+    sketch_numbers_.resize(setup_.columns.size() - program_columns_.size());
+  }
+
+  // Throws KeyError.
+  void connect(std::shared_ptr<Library> sketch) {
+    sketch_ = std::move(sketch);
+    sketch_->require_line();
+  }
+
+  // A sketch's setup with the columns that are not the program's.
+  [[nodiscard]] Setup without_columns(Setup of_sketch) const {
+    std::erase_if(of_sketch.columns, [&](const std::string& name) {
+      return std::ranges::find(program_columns_, name) != program_columns_.end();
+    });
+    return of_sketch;
+  }
+
+  void begin() override {
+    program_->begin();
+    sketch_->begin();
+    std::ranges::fill(numbers_, std::nan(""));
+    arrived_.clear();
+    samples_ = sent_ = 0;
+    due_ = baud_ = 0;
+  }
+
+  model::Commands command(const model::ControllerSample& sample, double* own) override {
+    sketch_->receive(arrived_);
+    sketch_->send(answer(sample), setup_.delay);
+    const model::Commands command = sketch_->command(sample, sketch_numbers_.data());
+    std::size_t of_sketch = 0;
+    for (std::size_t i = 0; i < setup_.columns.size(); ++i) {
+      const auto its = std::ranges::find(program_columns_, setup_.columns[i]);
+      own[i] = its == program_columns_.end()
+                   ? sketch_numbers_[of_sketch++]
+                   : numbers_[static_cast<std::size_t>(its - program_columns_.begin())];
+    }
+    return command;
+  }
+
+  // After samples: that no byte reached the sketch, or some were lost, as a sentence; may be empty.
+  [[nodiscard]] std::string remark() const {
+    const bbsim_line line = sketch_->line();
+    if (sent_ == 0) return "the program at the serial line sent no byte to the sketch";
+    if (line.baud == 0) {
+      return "the sketch received nothing at its serial line: it never calls Serial.begin()";
+    }
+    if (line.read == 0) return "the sketch read no byte of its serial line";
+    if (line.overrun == 0) return "";
+    return "the serial line lost " + std::to_string(line.overrun) + " of " + std::to_string(sent_) +
+           " bytes: the sketch's buffer of 64 bytes was full; it reads too rarely, or the program "
+           "sends too much";
+  }
+
+ private:
+  // What the program sends at a sample of the board.
+  std::string answer(const model::ControllerSample& sample) {
+    // Times are rounded; a sample that is due a moment later is this one.
+    const double periods = sample.t / setup_.period + 1e-6;
+    if (periods < due_) return {};
+    due_ = std::floor(periods) + 1;
+    const model::ControllerSample its{samples_++,   sample.t,          sample.seen,
+                                      sample.servo, sample.servo_rate, sample.reference};
+    SerialAnswer said = program_->exchange(its, arrived_, program_columns_, numbers_.data());
+    arrived_.clear();
+    sent_ += said.bytes.size();
+    baud_ = said.baud.value_or(baud_);
+    const double theirs = sketch_->line().baud;
+    constexpr double tolerated = 0.04;  // receivers sample the tenth bit half a bit too late
+    if (!said.bytes.empty() && baud_ > 0 && theirs > 0 &&
+        std::abs(baud_ / theirs - 1) > tolerated) {
+      throw program_->refuse(its, "it opened the line at " + short_number(baud_) +
+                                      " baud, and the sketch at " + rounded(theirs, 4) +
+                                      "; allowed: the same");
+    }
+    return std::move(said.bytes);
+  }
+
+  std::shared_ptr<Program> program_;
+  std::shared_ptr<Library> sketch_;
+  Setup setup_;
+  std::vector<std::string> program_columns_;
+  std::vector<double> numbers_, sketch_numbers_;  // of each one's columns
+  std::string arrived_;                           // at the program, since its last sample
+  std::size_t samples_ = 0, sent_ = 0;            // of the program; bytes
+  double due_ = 0;                                // the time of its next sample, in its periods
+  double baud_ = 0;                               // that it named, or 0
+};
 
 Host::Host(Report report, const std::atomic<bool>* stop)
     : report_(std::move(report)), stop_(stop) {}

@@ -13,7 +13,6 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "controller/foreign_code.hpp"
 

@@ -6,21 +6,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/real.hpp"
 #include "base/text.hpp"
 #include "yaml/spelling.hpp"
 
 namespace bbsim::controller {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Writes a number with a point or an exponent, so that no reader takes it for an integer, which
 // would lose the sign of -0.

@@ -13,7 +13,6 @@
 #include <filesystem>
 
 #include "base/error.hpp"
-#include "file/descriptor.hpp"
 #include "file/leftovers.hpp"
 
 namespace bbsim::file {

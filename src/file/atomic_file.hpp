@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "file/descriptor.hpp"
-#include "file/flusher.hpp"
 #include "file/target.hpp"
 
 namespace bbsim::file {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <string_view>
 
 #include "base/number_text.hpp"
 #include "base/text.hpp"

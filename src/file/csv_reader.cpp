@@ -8,16 +8,14 @@
 #include <array>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string_view>
 #include <unordered_set>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/csv_fields.hpp"
-#include "file/format.hpp"
 #include "file/line_reader.hpp"
+#include "file/table_writer.hpp"
 
 namespace bbsim::file {
 namespace {

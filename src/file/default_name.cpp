@@ -10,10 +10,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <string_view>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/descriptor.hpp"
 #include "file/target.hpp"
 

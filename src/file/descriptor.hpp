@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// File descriptors that close themselves, and complete reads and writes.
+// File descriptors that close themselves; complete reads and writes, and syncs to the disk.
 #pragma once
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -54,5 +55,33 @@ inline constexpr mode_t any_permissions = 0666;
 
 // The system's text for an errno, for use in a sentence: "no space left on device".
 [[nodiscard]] std::string error_text(int error_number);
+
+// Reads a file, a pipe or a device to its end. Stops early if the content does not begin with
+// `start`, and returns the bytes read so far. Throws InputError, "cannot read FILE: why", also for
+// a folder and for more than `most` bytes.
+[[nodiscard]] std::string read_whole(const std::string& file, std::string_view start = {},
+                                     std::size_t most = std::size_t{1} << 30U);
+
+// Syncs a growing file to the disk during a long run.
+//
+// A power cut loses at most the last few seconds of work. The disk starts to write in the
+// background once enough data has accumulated, so that the syncs every few seconds and at the end
+// are short.
+class Flusher {
+ public:
+  // The first `size` bytes are already on the disk.
+  explicit Flusher(off_t size = 0) : sent_(size) {}
+
+  // Call it when the file has this size (bytes). Returns whether a sync is due.
+  bool send(int descriptor, off_t size);
+  // Returns an errno, or 0.
+  [[nodiscard]] int sync(int descriptor);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  off_t sent_;
+  Clock::time_point last_ = Clock::now();
+};
 
 }  // namespace bbsim::file

@@ -25,6 +25,7 @@ namespace bbsim::file {
 namespace hdf5 {
 class Writer;
 class Reader;
+struct Module;
 struct Trouble;
 }  // namespace hdf5
 
@@ -127,5 +128,19 @@ class Hdf5TableReader {
   Hdf5Head head_;
   std::unique_ptr<hdf5::Reader> reader_;
 };
+
+// The HDF5 module, which writes and reads the files; or, in `trouble`, why it is missing and the
+// remedy, as the end of a sentence.
+struct Hdf5Module {
+  const hdf5::Module* functions = nullptr;
+  std::string trouble;
+};
+
+// Looks for the module in these folders, in order, and opens it; it is never closed.
+[[nodiscard]] Hdf5Module open_hdf5_module(const std::vector<std::string>& folders);
+
+// The folders to search: BBSIM_MODULE_PATH alone, if it is set; otherwise those above the
+// shared library with this code, or ../lib/bbsim (or the system's name for lib) of the program.
+[[nodiscard]] std::vector<std::string> hdf5_module_folders();
 
 }  // namespace bbsim::file

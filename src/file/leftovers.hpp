@@ -9,8 +9,6 @@
 
 #include <optional>
 
-#include "base/fork_mutex.hpp"
-
 namespace bbsim::file {
 
 // remove_temporaries() removes `name` until forget_temporary(). The characters must stay in place

@@ -12,7 +12,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "file/descriptor.hpp"
 
 namespace bbsim::file {

@@ -10,7 +10,6 @@
 #include <cerrno>
 
 #include "base/error.hpp"
-#include "file/descriptor.hpp"
 #include "file/target.hpp"
 
 namespace bbsim::file {

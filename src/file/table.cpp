@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 #include "base/error.hpp"
-#include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/real.hpp"
+#include "base/text.hpp"
 #include "file/line_reader.hpp"
 
 namespace bbsim::file {

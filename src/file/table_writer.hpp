@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Writes tables to CSV, HDF5 or standard output.
+// Writes tables to CSV, HDF5 or standard output, in the format of the file's name.
 #pragma once
 
 #include <cstddef>
@@ -48,5 +48,19 @@ void require_table_name(const std::string& target);
 
 // The first line of a CSV with these columns, without its line break.
 [[nodiscard]] std::string csv_header(const std::vector<ColumnHeader>& headers);
+
+enum class Format { csv, hdf5, other };
+
+// Decides by the ending, in upper or lower case: .csv, .h5, .hdf5.
+[[nodiscard]] Format format_of(const std::string& file);
+
+// The ending in lower case: ".svg" for "a.SVG".
+[[nodiscard]] std::string lower_ending(const std::string& file);
+
+// Only open_table() and read_table() use these. The writer throws OutputError, readers InputError.
+[[nodiscard]] std::unique_ptr<TableWriter> open_hdf5(const std::string& target,
+                                                     const std::vector<ColumnHeader>& headers);
+[[nodiscard]] Table read_csv(const std::string& file, const CsvChoice& choice);
+[[nodiscard]] Table read_hdf5(const std::string& file);
 
 }  // namespace bbsim::file

@@ -32,6 +32,10 @@ double rounding_of_switch(double from, double to, double steepest, double range)
   return std::min(part * steepest, range);
 }
 
+constexpr std::size_t most_intervals = 64;
+// Points suffice if the remainder is at most this part of the values.
+constexpr double unseen = 1e-14;
+
 }  // namespace
 
 void Curve::clear() {
@@ -271,14 +275,6 @@ std::optional<Curve::Place> Curve::place_at(double t) const {
   const double length = of.to - of.from;
   return Place{t, number, length > 0 ? std::clamp((t - of.from) / length, 0.0, 1.0) : 1.0};
 }
-
-namespace {
-
-constexpr std::size_t most_intervals = 64;
-// Points suffice if the remainder is at most this part of the values.
-constexpr double unseen = 1e-14;
-
-}  // namespace
 
 Traces::Traces(std::vector<const scenario::Column*> columns,
                std::vector<const scenario::Column*> ends)

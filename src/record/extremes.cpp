@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/maxima.hpp"
 #include "base/real.hpp"
 
 namespace bbsim::record {

@@ -4,15 +4,11 @@
 #include "record/instants.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
 
 #include "base/error.hpp"
 #include "base/instant.hpp"
 #include "base/number_text.hpp"
 #include "base/real.hpp"
-#include "record/curve.hpp"
 
 namespace bbsim::record {
 namespace {

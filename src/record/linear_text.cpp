@@ -8,14 +8,13 @@
 
 #include "base/json.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::record {
 namespace {
 
 using model::LinearSignal;
 using model::LinearSystem;
-using Json = nlohmann::ordered_json;
 using Signals = std::vector<LinearSignal>;
 
 Json json_of(const Eigen::MatrixXd& matrix) {

@@ -8,12 +8,10 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "base/error.hpp"
 #include "base/maxima.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "record/compare.hpp"
 #include "scenario/log_columns.hpp"

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/error.hpp"
 #include "base/real.hpp"
@@ -67,6 +65,12 @@ std::vector<const scenario::Column*> with_columns_of(
     columns.insert(columns.end(), wanted.begin(), wanted.end());
   }
   return columns;
+}
+
+std::optional<std::size_t> position_of(const std::vector<std::string>& names, const char* name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {};
+  return static_cast<std::size_t>(found - names.begin());
 }
 
 }  // namespace
@@ -187,16 +191,6 @@ std::optional<MotorPeaks> Recorder::peaks() const {
   };
   return MotorPeaks{peak(0), peak(1), peak(2), with_plate_};
 }
-
-namespace {
-
-std::optional<std::size_t> position_of(const std::vector<std::string>& names, const char* name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return {};
-  return static_cast<std::size_t>(found - names.begin());
-}
-
-}  // namespace
 
 bool EdgeNote::wanted(const Scenario& scenario) {
   return (scenario.plate.size || scenario.plate.diameter) && !scenario.events.edge;

@@ -4,15 +4,12 @@
 #include "record/summary.hpp"
 
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "base/json.hpp"
 #include "base/number_text.hpp"
 
 namespace bbsim::record {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // The members of each part, once for both formats.
 Json members_of(const RunSummary& summary) {

@@ -3,7 +3,6 @@
 
 #include "record/window_measures.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -79,6 +78,28 @@ std::vector<Extremes::Query> queries_of(const std::vector<Measure>& measures,
   }
   return queries;
 }
+
+class PiecePart : public solve::Piece {
+ public:
+  PiecePart(const solve::Piece& whole, double from, double to)
+      : Piece(from, to, whole.parts()), whole_(whole) {}
+
+  void evaluate(const double* times, std::size_t count, double* rows) const override {
+    whole_.evaluate(times, count, rows);
+  }
+  void evaluate_ball(const double* times, std::size_t count, double* rows) const override {
+    whole_.evaluate_ball(times, count, rows);
+  }
+  // Bounds of the whole piece hold for its part.
+  [[nodiscard]] std::optional<solve::Bounds> bounds(solve::Bounded column,
+                                                    const model::BallConstants& constants,
+                                                    bool closely) const override {
+    return whole_.bounds(column, constants, closely);
+  }
+
+ private:
+  const solve::Piece& whole_;
+};
 
 }  // namespace
 
@@ -170,32 +191,6 @@ void WindowMeasures::finish(const RunEnd& end, double* results, scenario::Whys& 
     put(m, found, results, whys);
   }
 }
-
-namespace {
-
-class PiecePart : public solve::Piece {
- public:
-  PiecePart(const solve::Piece& whole, double from, double to)
-      : Piece(from, to, whole.parts()), whole_(whole) {}
-
-  void evaluate(const double* times, std::size_t count, double* rows) const override {
-    whole_.evaluate(times, count, rows);
-  }
-  void evaluate_ball(const double* times, std::size_t count, double* rows) const override {
-    whole_.evaluate_ball(times, count, rows);
-  }
-  // Bounds of the whole piece hold for its part.
-  [[nodiscard]] std::optional<solve::Bounds> bounds(solve::Bounded column,
-                                                    const model::BallConstants& constants,
-                                                    bool closely) const override {
-    return whole_.bounds(column, constants, closely);
-  }
-
- private:
-  const solve::Piece& whole_;
-};
-
-}  // namespace
 
 void WindowPieces::accept(const solve::Piece& piece) {
   const double from = std::max(piece.from(), window_.begin());

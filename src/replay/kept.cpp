@@ -144,30 +144,6 @@ double keep_motion(const Motion& motion, std::size_t most, std::vector<std::size
   return stretches.empty() ? 0 : stretches.top().error;
 }
 
-}  // namespace
-
-KeptRows kept_rows(const Run& run, const std::vector<Quaternion>& orientation, std::size_t most) {
-  const std::size_t rows = row_count(run);
-  KeptRows kept;
-  if (rows <= most) {
-    kept.rows.resize(rows);
-    std::iota(kept.rows.begin(), kept.rows.end(), std::size_t{0});
-    return kept;
-  }
-  kept.rows = {0, rows - 1};
-  for (std::size_t buckets = 1; buckets <= rows; buckets *= 2) {
-    std::vector<std::size_t> more = rows_of_plots(run, buckets, most / 2);
-    if (more.empty()) break;
-    kept.rows = std::move(more);
-    kept.buckets = buckets;
-  }
-  kept.motion_error = keep_motion(Motion(run, orientation), most, kept.rows);
-  make_set(kept.rows);
-  return kept;
-}
-
-namespace {
-
 // The rank of each case's value among the distinct values of a key.
 struct Levels {
   std::vector<std::size_t> of_case;
@@ -200,6 +176,26 @@ bool is_grid(const std::vector<Levels>& keys, std::size_t cases) {
 }
 
 }  // namespace
+
+KeptRows kept_rows(const Run& run, const std::vector<Quaternion>& orientation, std::size_t most) {
+  const std::size_t rows = row_count(run);
+  KeptRows kept;
+  if (rows <= most) {
+    kept.rows.resize(rows);
+    std::iota(kept.rows.begin(), kept.rows.end(), std::size_t{0});
+    return kept;
+  }
+  kept.rows = {0, rows - 1};
+  for (std::size_t buckets = 1; buckets <= rows; buckets *= 2) {
+    std::vector<std::size_t> more = rows_of_plots(run, buckets, most / 2);
+    if (more.empty()) break;
+    kept.rows = std::move(more);
+    kept.buckets = buckets;
+  }
+  kept.motion_error = keep_motion(Motion(run, orientation), most, kept.rows);
+  make_set(kept.rows);
+  return kept;
+}
 
 std::vector<std::size_t> cases_kept(const Sweep& sweep, std::size_t most) {
   const std::size_t cases = sweep.status.size();

@@ -16,8 +16,6 @@
 namespace bbsim::replay {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t most_rows = 20000;
 constexpr std::size_t most_bytes = 2'400'000;
 constexpr std::size_t most_cases = 40000;
@@ -251,6 +249,50 @@ Json sweep_json(const Sweep& sweep, std::size_t sweeps, const Numbers& numbers) 
   return json;
 }
 
+Json loops_json(const std::optional<Live::Loops>& maybe, const Numbers& numbers) {
+  if (!maybe) return nullptr;
+  const Live::Loops& loops = *maybe;
+  Json curves = Json::object();
+  for (const auto& [command, gain, phase] : loops.curves) {
+    curves[command] = {{"gain", numbers.floats(gain)}, {"phase", numbers.floats(phase)}};
+  }
+  return {{"stable", loops.stable},
+          {"period", loops.period ? Json(*loops.period) : Json()},
+          {"frequencies", numbers.floats(loops.frequencies)},
+          {"curves", curves},
+          {"margins", parse_json(loops.margins)}};
+}
+
+Json live_json(const Live& live, const Numbers& numbers) {
+  const auto bound = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+  };
+  Json keys = Json::array(), tasks = Json::array();
+  for (const LiveKey& key : live.keys) {
+    keys.push_back({{"key", key.key},
+                    {"text", key.text},
+                    {"unit", key.unit},
+                    {"value", key.value},
+                    {"least", bound(key.least)},
+                    {"most", bound(key.most)},
+                    {"open", key.open},
+                    {"whole", key.whole},
+                    {"meaning", key.meaning}});
+  }
+  for (const Live::Task& task : live.tasks) {
+    tasks.push_back({{"text", task.text}, {"expect", task.expect}, {"holds", task.holds}});
+  }
+  Json measures = Json::object();
+  for (const Live::Measure& one : live.measures) {
+    measures[one.name] = {{"value", one.value}, {"unit", one.unit}};
+  }
+  return {{"keys", keys},
+          {"free", live.free},
+          {"tasks", tasks},
+          {"measures", measures},
+          {"loops", loops_json(live.loops, numbers)}};
+}
+
 Json json_of(const Scene& scene, const Numbers& numbers) {
   Json json = {{"format", 1}, {"version", scene.version}, {"title", scene.title}};
   Json runs = Json::array(), sweeps = Json::array();
@@ -311,6 +353,11 @@ std::string page(const Scene& scene, std::string_view whole_template, std::strin
 std::string scene_json(const Scene& scene, std::vector<std::vector<double>>& arrays) {
   check_scene(scene);
   return json_text(json_of(scene, Numbers(&arrays)));
+}
+
+std::string loops_json(const std::optional<Live::Loops>& loops,
+                       std::vector<std::vector<double>>& arrays) {
+  return json_text(loops_json(loops, Numbers(&arrays)));
 }
 
 }  // namespace bbsim::replay

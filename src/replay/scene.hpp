@@ -15,11 +15,50 @@
 
 #include "base/quaternion.hpp"
 #include "file/table.hpp"
-#include "replay/live.hpp"
 #include "results/result.hpp"
 #include "scenario/scenario.hpp"
 
 namespace bbsim::replay {
+
+// A number that the text of a scenario has: its slider.
+struct LiveKey {
+  std::string key, text;              // controller.pd.kp, and its value as the text has it
+  std::string unit;                   // of numbers in SI; may be empty
+  double value = 0;                   // SI
+  std::optional<double> least, most;  // the range of allowed values, SI; empty: unbounded
+  bool open = false;                  // `least` itself is not allowed
+  bool whole = false;                 // without fractions
+  std::string meaning;                // one phrase; may be empty
+};
+
+// What a live page shows beside its run: numbers to change, measures, tasks.
+struct Live {
+  struct Task {
+    std::string text, expect;  // as in `exercise`
+    bool holds = false;
+  };
+  struct Measure {
+    std::string name, unit;
+    double value = 0;
+  };
+  // The open loop of each command over the frequency, with the other one closed.
+  struct Loops {
+    struct Curve {
+      std::string command;
+      std::vector<double> gain, phase;  // rad
+    };
+    std::optional<double> period;  // s, of a sampled loop
+    std::vector<double> frequencies;
+    std::vector<Curve> curves;
+    std::string margins;  // JSON, as `bbsim linearize` writes it
+    bool stable = false;
+  };
+  std::vector<LiveKey> keys;      // in the order of their names
+  std::vector<std::string> free;  // keys that a learner may change; empty: all
+  std::vector<Task> tasks;
+  std::vector<Measure> measures;
+  std::optional<Loops> loops;  // of a loop that bbsim can linearize
+};
 
 // Poles of the loop about home: in 1/s for a continuous loop, in the z plane for a sampled one.
 // `period` is that of the sampled loop, s.

@@ -14,7 +14,6 @@
 #include "model/model.hpp"
 #include "model/signals/signal_pair.hpp"
 #include "model/spectrum.hpp"
-#include "results/result.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/measures.hpp"
 

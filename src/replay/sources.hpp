@@ -5,7 +5,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "file/table.hpp"
 #include "replay/scene.hpp"

@@ -12,8 +12,8 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
+#include "file/descriptor.hpp"
 #include "file/share_folders.hpp"
-#include "file/whole_file.hpp"
 
 namespace bbsim::replay {
 namespace {

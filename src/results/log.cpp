@@ -10,7 +10,6 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "file/clock.hpp"
 #include "results/result.hpp"

@@ -7,24 +7,21 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstddef>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
-#include <utility>
 #include <variant>
 
 #include "base/error.hpp"
 #include "base/json.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
 #include "base/real.hpp"
 #include "base/text.hpp"
-#include "file/format.hpp"
+#include "file/descriptor.hpp"
 #include "file/line_reader.hpp"
-#include "file/whole_file.hpp"
+#include "file/table_writer.hpp"
 #include "scenario/columns.hpp"
 #include "scenario/reader.hpp"
 #include "scenario/variation.hpp"
@@ -33,7 +30,6 @@ namespace bbsim::results {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 bool is_hdf5(const std::string& file) {
   return file::format_of(file) == file::Format::hdf5;

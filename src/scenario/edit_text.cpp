@@ -3,7 +3,6 @@
 
 #include "scenario/edit_text.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string_view>

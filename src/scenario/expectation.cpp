@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 #include "yaml/quantity.hpp"
 

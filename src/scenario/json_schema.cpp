@@ -16,7 +16,6 @@
 namespace bbsim::scenario {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using yaml::Choice;
 using yaml::Declared;
 using yaml::DeclaredKey;

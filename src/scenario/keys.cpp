@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/number_text.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "scenario/sections.hpp"
 #include "yaml/quantity.hpp"
 #include "yaml/rules.hpp"

@@ -36,6 +36,8 @@ Parts parts_of(std::string_view name) {
   return {name.substr(0, line), name.substr(line + 1)};
 }
 
+constexpr double most_rad = 1.6, most_m = 1, most_runs = 10;
+
 }  // namespace
 
 std::optional<yaml::UnitScale> log_unit(std::string_view unit, yaml::Dimension dimension) {
@@ -58,12 +60,6 @@ std::optional<std::size_t> find_log_column(const std::vector<std::string>& names
   }
   return {};
 }
-
-namespace {
-
-constexpr double most_rad = 1.6, most_m = 1, most_runs = 10;
-
-}  // namespace
 
 std::optional<Doubt> doubt_of(double largest, yaml::Dimension dimension) {
   if (dimension == yaml::Dimension::angle && largest > most_rad) return Doubt{"degrees", "deg"};

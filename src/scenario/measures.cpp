@@ -31,47 +31,6 @@ std::optional<double> take_last(std::string_view& text, std::string_view word) {
   return time;
 }
 
-}  // namespace
-
-WindowedName split_window(std::string_view name) {
-  name = trimmed(name);
-  WindowedName split{name};
-  split.window.to = take_last(split.base, " to ");
-  split.window.from = take_last(split.base, " from ");
-  split.text = trimmed(name.substr(split.base.size()));
-  return split;
-}
-
-std::string window_fault(const Window& window, double start, double end) {
-  if (window.from && window.to && !(*window.from < *window.to)) {
-    return "the window is empty; allowed: from a time to a later time";
-  }
-  const double rounding = rounding_of(end);
-  const bool within = (!window.from || (*window.from >= start && *window.from < end)) &&
-                      (!window.to || (*window.to > start && *window.to <= end + rounding));
-  if (within) return "";
-  return "the run is from " + number_text(start) + " to " + number_text(end) +
-         " s; allowed: a window within it";
-}
-
-Missing missing(const LoopMeasure& measure, const Scenario& scenario) {
-  const char* const instead = "measures of the motion, such as max_tilt";
-  if (!scenario.controller) return {"there is no controller", instead};
-  if (scenario.controller->law == Law::commands) return {"commands close no loop", instead};
-  if (scenario.controller->own) {
-    return {"only the controller knows its law; `bbsim check` tries to identify it", instead};
-  }
-  if (measure.kind == LoopMeasure::Kind::spectral_radius && !scenario.controller->sampling) {
-    return {"the controller takes no samples", "spectral_abscissa; or give controller.sampling"};
-  }
-  if (measure.of_response() && dry_part(scenario) != nullptr) {
-    return {"dry friction has no linear equations", "viscous losses alone"};
-  }
-  return {};
-}
-
-namespace {
-
 using Kind = Measure::Kind;
 
 struct Prefix {
@@ -250,6 +209,43 @@ std::optional<Measure> find_whole(std::string_view name, const FindColumn& find)
 }
 
 }  // namespace
+
+WindowedName split_window(std::string_view name) {
+  name = trimmed(name);
+  WindowedName split{name};
+  split.window.to = take_last(split.base, " to ");
+  split.window.from = take_last(split.base, " from ");
+  split.text = trimmed(name.substr(split.base.size()));
+  return split;
+}
+
+std::string window_fault(const Window& window, double start, double end) {
+  if (window.from && window.to && !(*window.from < *window.to)) {
+    return "the window is empty; allowed: from a time to a later time";
+  }
+  const double rounding = rounding_of(end);
+  const bool within = (!window.from || (*window.from >= start && *window.from < end)) &&
+                      (!window.to || (*window.to > start && *window.to <= end + rounding));
+  if (within) return "";
+  return "the run is from " + number_text(start) + " to " + number_text(end) +
+         " s; allowed: a window within it";
+}
+
+Missing missing(const LoopMeasure& measure, const Scenario& scenario) {
+  const char* const instead = "measures of the motion, such as max_tilt";
+  if (!scenario.controller) return {"there is no controller", instead};
+  if (scenario.controller->law == Law::commands) return {"commands close no loop", instead};
+  if (scenario.controller->own) {
+    return {"only the controller knows its law; `bbsim check` tries to identify it", instead};
+  }
+  if (measure.kind == LoopMeasure::Kind::spectral_radius && !scenario.controller->sampling) {
+    return {"the controller takes no samples", "spectral_abscissa; or give controller.sampling"};
+  }
+  if (measure.of_response() && dry_part(scenario) != nullptr) {
+    return {"dry friction has no linear equations", "viscous losses alone"};
+  }
+  return {};
+}
 
 std::string Measure::meaning() const {
   if (kind == Kind::loop) return std::string(loop->meaning);

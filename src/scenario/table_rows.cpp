@@ -12,8 +12,8 @@
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "file/clock.hpp"
-#include "file/format.hpp"
 #include "file/table.hpp"
+#include "file/table_writer.hpp"
 #include "yaml/rules.hpp"
 
 namespace bbsim::scenario {

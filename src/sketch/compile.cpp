@@ -14,10 +14,10 @@
 #include <system_error>
 
 #include "base/error.hpp"
-#include "file/external.hpp"
+#include "file/descriptor.hpp"
 #include "file/leftovers.hpp"
 #include "file/share_folders.hpp"
-#include "file/whole_file.hpp"
+#include "file/start_process.hpp"
 #include "sketch/source.hpp"
 
 namespace bbsim::sketch {
@@ -123,19 +123,6 @@ class Search {
   std::string ours_;
   std::set<std::string> seen_;
 };
-
-}  // namespace
-
-Libraries find_libraries(const std::vector<std::string>& included,
-                         const std::vector<std::string>& own, const std::vector<std::string>& given,
-                         const std::string& ours, const std::vector<std::string>& whole) {
-  Search search(own, given, ours);
-  for (const std::string& folder : whole) search.add_whole(folder);
-  for (const std::string& header : included) search.follow(header);
-  return std::move(search.found);
-}
-
-namespace {
 
 constexpr const char* purpose = "compile the sketch";
 constexpr std::size_t most_in_a_file = (std::size_t{16} << 20U) - 1;  // bytes
@@ -259,6 +246,15 @@ Sources read(const Job& job, const std::string& board) {
 }
 
 }  // namespace
+
+Libraries find_libraries(const std::vector<std::string>& included,
+                         const std::vector<std::string>& own, const std::vector<std::string>& given,
+                         const std::string& ours, const std::vector<std::string>& whole) {
+  Search search(own, given, ours);
+  for (const std::string& folder : whole) search.add_whole(folder);
+  for (const std::string& header : included) search.follow(header);
+  return std::move(search.found);
+}
 
 std::vector<std::string> files_of(const Job& job) {
   std::vector<std::string> files = job.files;

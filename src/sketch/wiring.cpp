@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <utility>
 
 #include "base/error.hpp"
 #include "base/real.hpp"
-#include "file/whole_file.hpp"
+#include "file/descriptor.hpp"
 #include "sketch/wiring_rules.hpp"
 #include "yaml/document.hpp"
 #include "yaml/text_file.hpp"

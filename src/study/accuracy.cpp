@@ -75,6 +75,32 @@ AccuracyPoint measure(const model::Model& model, const solve::OutputGrid& grid, 
   return point;
 }
 
+// Appends text as printf does. Lines of this file are shorter than the buffer.
+[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
+  char line[256];
+  va_list arguments;
+  va_start(arguments, format);
+  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start has just set it
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+// Rounds to whole nanoseconds, the resolution of the clock.
+double microseconds(const AccuracyPoint& point) {
+  return std::round(1e9 * point.cpu_seconds) / 1000;
+}
+
+std::string name(const AccuracyPoint& point) {
+  return std::string(method_name(point.method));
+}
+
+const char* status(const AccuracyPoint& point) {
+  return point.ending == solve::Ending::done      ? "done"
+         : point.ending == solve::Ending::stopped ? "stopped"
+                                                  : "failed";
+}
+
 }  // namespace
 
 double ten_digits(double value) {
@@ -146,36 +172,6 @@ std::vector<BestChoice> best_by_decade(const AccuracyStudy& study) {
   }
   return best;
 }
-
-namespace {
-
-// Appends text as printf does. Lines of this file are shorter than the buffer.
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, format);
-  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start has just set it
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
-
-// Rounds to whole nanoseconds, the resolution of the clock.
-double microseconds(const AccuracyPoint& point) {
-  return std::round(1e9 * point.cpu_seconds) / 1000;
-}
-
-std::string name(const AccuracyPoint& point) {
-  return std::string(method_name(point.method));
-}
-
-const char* status(const AccuracyPoint& point) {
-  return point.ending == solve::Ending::done      ? "done"
-         : point.ending == solve::Ending::stopped ? "stopped"
-                                                  : "failed";
-}
-
-}  // namespace
 
 std::string accuracy_table(const AccuracyStudy& study) {
   std::string text;

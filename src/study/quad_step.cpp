@@ -48,6 +48,10 @@ Quad central_binomial(int s) {
   return value;
 }
 
+// The factors are kept while each pass reduces the error at least by this factor. Another pass in
+// quad costs a tenth of new factors.
+constexpr double worth_keeping = 0.05;
+
 }  // namespace
 
 RadauRule::RadauRule(int s) : stages(s), matrix_in_double(s, s) {
@@ -105,14 +109,6 @@ RadauRule::RadauRule(int s) : stages(s), matrix_in_double(s, s) {
     previous_coefficient.push_back(barycentric[i + 1] * nodes[i] / central_binomial(s - 1));
   }
 }
-
-namespace {
-
-// The factors are kept while each pass reduces the error at least by this factor. Another pass in
-// quad costs a tenth of new factors.
-constexpr double worth_keeping = 0.05;
-
-}  // namespace
 
 CollocationStep::CollocationStep(const Equation& equation, const RadauRule& rule, double tolerance)
     : equation_(equation),

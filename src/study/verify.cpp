@@ -213,34 +213,6 @@ Check compare(const KnownMotion& known, const solve::Watch& watch) {
               (tolerances.rtol * size + tolerances.atol) * (1 + scene.time.end)};
 }
 
-}  // namespace
-
-bool Verification::holds() const {
-  return !interrupted && std::ranges::all_of(checks, &Check::holds);
-}
-
-Verification verify(const solve::Watch& watch) {
-  Verification verification;
-  for (const KnownMotion& motion : known_motions) {
-    Check result = compare(motion, watch);
-    if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
-      verification.interrupted = true;
-      break;
-    }
-    verification.checks.push_back(std::move(result));
-    if (watch.progress) {
-      watch.progress(static_cast<double>(verification.checks.size()) / std::size(known_motions));
-    }
-  }
-  return verification;
-}
-
-std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides) {
-  return {parse_scenario(fig2a, "fig2a", overrides), parse_scenario(fig2b, "fig2b", overrides)};
-}
-
-namespace {
-
 using solve::Trajectory;
 
 constexpr solve::Tolerances tolerances{1e-9, 1e-11};
@@ -326,6 +298,30 @@ SimplerModel compare(std::string name, std::string equation, const Trajectory& f
 }
 
 }  // namespace
+
+bool Verification::holds() const {
+  return !interrupted && std::ranges::all_of(checks, &Check::holds);
+}
+
+Verification verify(const solve::Watch& watch) {
+  Verification verification;
+  for (const KnownMotion& motion : known_motions) {
+    Check result = compare(motion, watch);
+    if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
+      verification.interrupted = true;
+      break;
+    }
+    verification.checks.push_back(std::move(result));
+    if (watch.progress) {
+      watch.progress(static_cast<double>(verification.checks.size()) / std::size(known_motions));
+    }
+  }
+  return verification;
+}
+
+std::vector<Scenario> paper_scenes(const std::vector<std::string>& overrides) {
+  return {parse_scenario(fig2a, "fig2a", overrides), parse_scenario(fig2b, "fig2b", overrides)};
+}
 
 void require_comparable(const Scenario& scenario) {
   const model::Model model = model::assemble(scenario, false);

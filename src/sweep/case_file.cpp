@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "file/format.hpp"
 #include "file/own_file.hpp"
 
 namespace bbsim::sweep {

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "file/descriptor.hpp"
-#include "file/flusher.hpp"
 #include "file/target.hpp"
 #include "sweep/case_rows.hpp"
 #include "sweep/sweep.hpp"

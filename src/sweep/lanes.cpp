@@ -15,8 +15,6 @@
 #include "model/signals/signal_pair.hpp"
 #include "record/rows.hpp"
 #include "solve/ensemble/ensemble.hpp"
-#include "sweep/case_scenario.hpp"
-#include "sweep/group_runner.hpp"
 #include "sweep/runners.hpp"
 
 namespace bbsim::sweep {

@@ -9,7 +9,6 @@
 #include "base/error.hpp"
 #include "base/real.hpp"
 #include "model/control/loop_analysis.hpp"
-#include "sweep/case_scenario.hpp"
 #include "sweep/runners.hpp"
 
 namespace bbsim::sweep {

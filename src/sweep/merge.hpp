@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,20 @@ struct Merged {
 
 // The name of a CSV part's plan; empty if it has none.
 [[nodiscard]] std::string plan_of_part(const std::string& part);
+
+// For merge_cases() only: the parts are HDF5.
+[[nodiscard]] Merged merge_hdf5(const std::vector<std::string>& parts, const std::string& target,
+                                const std::atomic<bool>& stop);
+
+// What CSV and HDF5 share. Both throw InputError if the numbers differ.
+void check_case(const std::string& file, std::size_t found, std::size_t expected);
+void check_all_there(std::size_t found, const std::string& expected);
+
+// The instruction sets that computed the parts.
+using InstructionSets = std::set<std::string>;
+// "avx2 and avx512"
+[[nodiscard]] std::string names_of(const InstructionSets& sets);
+// A note for the user if there are several sets; empty otherwise.
+[[nodiscard]] std::string note_on(const InstructionSets& sets);
 
 }  // namespace bbsim::sweep

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/number_text.hpp"
 #include "file/hdf5_table.hpp"
-#include "sweep/merge_parts.hpp"
+#include "sweep/merge.hpp"
 
 namespace bbsim::sweep {
 namespace {

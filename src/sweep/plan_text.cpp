@@ -6,12 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json.hpp"
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::sweep {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string instruction_set_of(const Json& plan) {
   const auto found = plan.find("instruction_set");
@@ -40,20 +38,13 @@ PlanDifference compare_plans(const std::string& first, const std::string& second
   return difference;
 }
 
-std::optional<std::size_t> cases_in(const std::string& plan) {
+std::optional<PlanFacts> facts_in(const std::string& plan) {
   const Json json = parse_json(plan);
   if (!json.is_object()) return {};
-  const auto found = json.find("cases");
-  if (found == json.end() || !found->is_number_unsigned()) return {};
-  return found->get<std::size_t>();
-}
-
-std::string instruction_set_in(const std::string& plan) {
-  return instruction_set_of(parse_json(plan));
-}
-
-bool is_plan(const std::string& text) {
-  return parse_json(text).is_object();
+  PlanFacts facts{{}, instruction_set_of(json)};
+  const auto cases = json.find("cases");
+  if (cases != json.end() && cases->is_number_unsigned()) facts.cases = cases->get<std::size_t>();
+  return facts;
 }
 
 }  // namespace bbsim::sweep

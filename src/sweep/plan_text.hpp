@@ -19,13 +19,12 @@ struct PlanDifference {
 [[nodiscard]] PlanDifference compare_plans(const std::string& first, const std::string& second,
                                            bool of_shards = false);
 
-// The number of cases of the whole sweep; empty if the plan lacks it.
-[[nodiscard]] std::optional<std::size_t> cases_in(const std::string& plan);
-
-// "unknown" if the plan has none.
-[[nodiscard]] std::string instruction_set_in(const std::string& plan);
-
-// Whether the text is a JSON object.
-[[nodiscard]] bool is_plan(const std::string& text);
+// What a plan says of the whole sweep.
+struct PlanFacts {
+  std::optional<std::size_t> cases{};  // empty if the plan lacks them
+  std::string instruction_set;         // "unknown" if the plan has none
+};
+// Empty if the text is not a JSON object.
+[[nodiscard]] std::optional<PlanFacts> facts_in(const std::string& plan);
 
 }  // namespace bbsim::sweep

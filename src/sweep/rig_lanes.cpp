@@ -14,8 +14,6 @@
 #include "base/error.hpp"
 #include "model/model.hpp"
 #include "record/recorder.hpp"
-#include "sweep/case_scenario.hpp"
-#include "sweep/group_runner.hpp"
 #include "sweep/runners.hpp"
 
 namespace bbsim::sweep {

@@ -1,11 +1,17 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What runs the cases of a sweep. A task must outlive its runner.
+// What runs the cases of a sweep, and what these runners share. A task must outlive its runner.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "scenario/scenario.hpp"
 #include "sweep/task.hpp"
 
 namespace bbsim::sweep {
@@ -39,5 +45,65 @@ namespace bbsim::sweep {
 // loop; the end time is then NaN.
 [[nodiscard]] std::unique_ptr<CaseRunner> loop_runner(const SweepTask& task,
                                                       std::unique_ptr<CaseRunner> motion);
+
+struct GroupCase {
+  std::size_t number;    // of the case, in the sweep
+  const double* values;  // one number for each axis
+  double* measures;      // the results
+  // The series of all cases, and where this one's begin.
+  std::vector<std::vector<double>>* series;
+  std::size_t place;
+  bool is_done = false;      // run to its end, with its measures and series written
+  scenario::Whys whys = {};  // why measures are not finite, if known
+  // Time at which the motion grew without bound, s; empty if it reached the end.
+  std::optional<double> unbounded_at = {};
+};
+
+// Whether lanes may hold the rows: all cases have them at the same times if they end at the same
+// time.
+[[nodiscard]] bool can_share_rows(const SweepTask& task);
+// Those rows, if the task has times of its own; `first` is as below.
+[[nodiscard]] std::optional<TimedRows> timed_rows(const SweepTask& task, const Scenario& first);
+
+// Integrates a group of cases in lanes.
+class LaneRunner {
+ public:
+  virtual ~LaneRunner() = default;
+  // Runs one group; the last group of the sweep may be smaller. Cases that it does not mark as
+  // done are run singly. May return early once `stop` is true.
+  virtual void run(std::span<GroupCase> cases, const std::atomic<bool>& stop) = 0;
+};
+
+// Runs groups of cases in lanes, and the cases that do not fit one by one. `first` is the scenario
+// of the sweep's first case. All cases in lanes share its end time and have all measures. The task
+// must outlive the runner.
+[[nodiscard]] std::unique_ptr<CaseRunner> group_runner(const SweepTask& task, const Scenario& first,
+                                                       std::size_t group,
+                                                       std::unique_ptr<LaneRunner> lanes);
+
+// Makes the scenario of a case. Replaces numbers in place if no rule relates their keys to other
+// keys; otherwise reads the scenario again.
+class CaseScenario {
+ public:
+  explicit CaseScenario(const SweepTask& task);
+  CaseScenario(const CaseScenario&) = delete;  // places_ point into scenario_
+  CaseScenario& operator=(const CaseScenario&) = delete;
+
+  // Returns the scenario of case `number`, valid until the next call: its window, if the task has
+  // windows. `values` are the plan's values for that case, already checked.
+  [[nodiscard]] const Scenario& at(std::size_t number, const double* values);
+
+ private:
+  // Sets the values of the keys; returns whether that may have changed the scenario.
+  bool put(std::size_t number, const double* values);
+
+  const SweepTask& task_;
+  Scenario scenario_;
+  bool in_place_ = true;
+  std::vector<std::vector<double*>> places_;  // for each axis
+  std::vector<double> values_;                // of scenario_, if they are not in place
+  std::optional<Scenario> window_;            // of scenario_
+  double begin_ = 0, end_ = 0;                // of window_, s
+};
 
 }  // namespace bbsim::sweep

@@ -6,8 +6,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <span>
-#include <utility>
 
 #include "base/error.hpp"
 #include "base/real.hpp"
@@ -16,7 +14,6 @@
 #include "record/recorder.hpp"
 #include "solve/integrate.hpp"
 #include "study/error_control.hpp"
-#include "sweep/case_scenario.hpp"
 #include "sweep/runners.hpp"
 
 namespace bbsim::sweep {

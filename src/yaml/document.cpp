@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -218,6 +217,42 @@ Position position(const YAML::Mark& mark, std::string_view text, int source) {
   return {source, last + 1, static_cast<int>(text.size() - begin) + 1};
 }
 
+std::string hexadecimal(unsigned value) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  return {'0', 'x', digits[value >> 4U], digits[value & 15U]};
+}
+
+bool is_control(unsigned value) {
+  return (value < 0x20 && value != '\t' && value != '\n' && value != '\r') || value == 0x7F;
+}
+
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+}
+
+// The place of a tab in the indentation of the line that begins at `line`, or npos. Blank lines and
+// comments have no significant indentation.
+std::size_t indenting_tab(std::string_view text, std::size_t line) {
+  const std::size_t end = text.find_first_not_of(" \t", line);
+  if (end == std::string_view::npos || text[end] == '\n' || text[end] == '\r' || text[end] == '#') {
+    return std::string_view::npos;
+  }
+  const std::size_t tab = text.substr(line, end - line).find('\t');
+  return tab == std::string_view::npos ? tab : line + tab;
+}
+
+Position position(std::string_view text, std::size_t at, int source) {
+  Position result{source, 1, 1};
+  for (std::size_t i = 0; i < at; ++i) {
+    ++result.column;
+    if (text[i] == '\n') {
+      ++result.line;
+      result.column = 1;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::size_t offset_of(std::string_view text, const Position& position) {
@@ -270,46 +305,6 @@ std::string flow_text(const Node& node) {
   }
   return text;
 }
-
-namespace {
-
-std::string hexadecimal(unsigned value) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  return {'0', 'x', digits[value >> 4U], digits[value & 15U]};
-}
-
-bool is_control(unsigned value) {
-  return (value < 0x20 && value != '\t' && value != '\n' && value != '\r') || value == 0x7F;
-}
-
-bool is_utf16(std::string_view text) {
-  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
-}
-
-// The place of a tab in the indentation of the line that begins at `line`, or npos. Blank lines and
-// comments have no significant indentation.
-std::size_t indenting_tab(std::string_view text, std::size_t line) {
-  const std::size_t end = text.find_first_not_of(" \t", line);
-  if (end == std::string_view::npos || text[end] == '\n' || text[end] == '\r' || text[end] == '#') {
-    return std::string_view::npos;
-  }
-  const std::size_t tab = text.substr(line, end - line).find('\t');
-  return tab == std::string_view::npos ? tab : line + tab;
-}
-
-Position position(std::string_view text, std::size_t at, int source) {
-  Position result{source, 1, 1};
-  for (std::size_t i = 0; i < at; ++i) {
-    ++result.column;
-    if (text[i] == '\n') {
-      ++result.line;
-      result.column = 1;
-    }
-  }
-  return result;
-}
-
-}  // namespace
 
 std::string_view without_byte_order_mark(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace bbsim::yaml {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "yaml/document.hpp"
 
 namespace bbsim::yaml {

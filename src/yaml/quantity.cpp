@@ -148,6 +148,16 @@ std::string unit_fault(std::string_view unit, Dimension dimension) {
          " are: " + joined(wanted.units, &Unit::name) + ")";
 }
 
+// Larger exponents overflow or underflow with every mantissa that a file of bounded size can hold.
+constexpr long exponent_limit = 100'000'000;
+
+// The power of ten just above the decimal mantissa: 2 for 12.3, -1 for 0.012.
+long leading_power(std::string_view mantissa) {
+  const auto first = static_cast<long>(mantissa.find_first_of("123456789"));
+  const auto point = static_cast<long>(std::min(mantissa.find('.'), mantissa.size()));
+  return first < point ? point - first : point + 1 - first;
+}
+
 }  // namespace
 
 std::string_view noun(Dimension dimension) {
@@ -217,20 +227,6 @@ std::optional<double> value_in(std::string_view text, std::string_view unit) {
   const std::optional<double> value = read_quantity(text, false, dimension).value;
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
-
-namespace {
-
-// Larger exponents overflow or underflow with every mantissa that a file of bounded size can hold.
-constexpr long exponent_limit = 100'000'000;
-
-// The power of ten just above the decimal mantissa: 2 for 12.3, -1 for 0.012.
-long leading_power(std::string_view mantissa) {
-  const auto first = static_cast<long>(mantissa.find_first_of("123456789"));
-  const auto point = static_cast<long>(std::min(mantissa.find('.'), mantissa.size()));
-  return first < point ? point - first : point + 1 - first;
-}
-
-}  // namespace
 
 Decimal leading_decimal(std::string_view text) {
   // from_chars takes no plus sign, and reads words such as "inf", too.

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/quoted.hpp"
 #include "base/text.hpp"
 
 namespace bbsim::yaml {
@@ -41,31 +40,6 @@ std::string spelled(std::string_view path, std::string_view Word::*from,
   }
   return text;
 }
-
-}  // namespace
-
-std::string american(std::string_view path) {
-  return spelled(path, &Word::british, &Word::american);
-}
-
-std::string british(std::string_view path) {
-  return spelled(path, &Word::american, &Word::british);
-}
-
-std::optional<std::string> other_spelling(std::string_view name) {
-  // Most names have one spelling. They return without making a string, because a sweep looks up
-  // many names.
-  const auto holds = [&](std::string_view word) {
-    return name.find(word) != std::string_view::npos;
-  };
-  for (const Word& word : words) {
-    if (holds(word.british)) return american(name);
-    if (holds(word.american)) return british(name);
-  }
-  return {};
-}
-
-namespace {
 
 // The Damerau-Levenshtein distance (optimal string alignment), row by row.
 std::size_t typing_errors(std::string_view a, std::string_view b) {
@@ -122,6 +96,27 @@ constexpr std::array synonyms{
 };
 
 }  // namespace
+
+std::string american(std::string_view path) {
+  return spelled(path, &Word::british, &Word::american);
+}
+
+std::string british(std::string_view path) {
+  return spelled(path, &Word::american, &Word::british);
+}
+
+std::optional<std::string> other_spelling(std::string_view name) {
+  // Most names have one spelling. They return without making a string, because a sweep looks up
+  // many names.
+  const auto holds = [&](std::string_view word) {
+    return name.find(word) != std::string_view::npos;
+  };
+  for (const Word& word : words) {
+    if (holds(word.british)) return american(name);
+    if (holds(word.american)) return british(name);
+  }
+  return {};
+}
 
 std::string_view nearest_name(std::string_view word, std::span<const std::string_view> names) {
   std::string_view best;

@@ -4,7 +4,7 @@
 // Outside text made safe for terminals, for bbsim's sentences and for comments in programs.
 #include <string>
 
-#include "base/quoted.hpp"
+#include "base/text.hpp"
 #include "catch.hpp"
 
 namespace bbsim_test::test_quoted {

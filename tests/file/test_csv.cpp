@@ -16,7 +16,6 @@
 #include "base/error.hpp"
 #include "catch.hpp"
 #include "file/atomic_file.hpp"
-#include "file/format.hpp"
 #include "file/table.hpp"
 #include "file/table_writer.hpp"
 #include "support/folder.hpp"

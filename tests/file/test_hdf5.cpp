@@ -11,7 +11,6 @@
 
 #include "base/error.hpp"
 #include "catch.hpp"
-#include "file/hdf5_module.hpp"
 #include "file/hdf5_table.hpp"
 #include "file/table_writer.hpp"
 #include "support/folder.hpp"

@@ -22,7 +22,7 @@
 #include "support/sweep_setup.hpp"
 #include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
-#include "sweep/sweep_measures.hpp"
+#include "sweep/task.hpp"
 
 namespace bbsim_test::test_engines {
 

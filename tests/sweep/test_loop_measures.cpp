@@ -10,7 +10,7 @@
 #include "model/control/loop_analysis.hpp"
 #include "support/sweep_setup.hpp"
 #include "sweep/sweep.hpp"
-#include "sweep/sweep_measures.hpp"
+#include "sweep/task.hpp"
 
 namespace bbsim_test::test_loop_measures {
 

@@ -1,15 +1,21 @@
 // SPDX-FileCopyrightText: 2026 the bbsim authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Owned HDF5 identifiers and checked calls.
+// Owned HDF5 identifiers, checked calls, attributes, and names in files: what the writer and the
+// reader share.
 #pragma once
 
 #include <hdf5.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "file/table.hpp"
 
 namespace bbsim::file::hdf5 {
 
@@ -68,5 +74,33 @@ using Properties = Handle<H5Pclose>;
 // Access to a file without locks: what bbsim writes has no name yet, results do not change once
 // they exist, and many network file systems have no locks.
 [[nodiscard]] Properties file_access();
+
+// UTF-8 strings of any length, as h5py writes them. Throws Failure, like all functions here.
+[[nodiscard]] Datatype string_type();
+// Strings of at most `size` bytes.
+[[nodiscard]] Datatype string_type_of(std::size_t size);
+
+// Text is stored with a fixed length in the object's header, which has a checksum.
+void set_attribute(hid_t object, const std::string& name, const AttributeValue& value);
+
+// The value of an open attribute, if it is a single string or number.
+[[nodiscard]] std::optional<AttributeValue> value_of(hid_t attribute);
+// The text of a string attribute; "" if no attribute has this name or it is not a string.
+[[nodiscard]] std::string text_of(hid_t object, const char* name);
+
+// The attribute that distinguishes an axis of series from a column.
+inline constexpr const char* axis_mark = "axis";
+
+// The group of the tables that the scenario read. Each table is a group with a dataset per column.
+inline constexpr const char* inputs_group = "inputs";
+inline constexpr const char* input_file = "file";
+
+// The attribute with the name of a column that a dataset cannot have: HDF5 names have no slash.
+inline constexpr const char* column_title = "column";
+
+[[nodiscard]] inline std::string dataset_name(std::string column) {
+  std::ranges::replace(column, '/', '_');
+  return column;
+}
 
 }  // namespace bbsim::file::hdf5

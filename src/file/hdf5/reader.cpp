@@ -10,9 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "base/quoted.hpp"
-#include "file/hdf5/attributes.hpp"
-#include "file/hdf5/names.hpp"
+#include "base/text.hpp"
 
 namespace bbsim::file::hdf5 {
 namespace {

@@ -9,9 +9,6 @@
 #include <array>
 #include <set>
 
-#include "file/hdf5/attributes.hpp"
-#include "file/hdf5/names.hpp"
-
 namespace bbsim::file::hdf5 {
 namespace {
 
