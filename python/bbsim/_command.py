@@ -27,11 +27,6 @@ class _Parser(argparse.ArgumentParser):
         raise fault(f"{message}\nRun {self.prog} --help for more information.")
 
 
-def _name_of(option: Dict[str, Any]) -> str:
-    """The keyword of an option: some_name of "-s,--some-name"."""
-    return str(option["names"]).split(",")[-1].lstrip("-").replace("-", "_").lower()
-
-
 def _number(option: Dict[str, Any], text: str) -> float:
     """An option's number: a whole one from option["whole"] on, if the option has that."""
     least = option.get("whole")
@@ -59,11 +54,11 @@ def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str,
             how["action"] = "store_true"
         elif not names[0].startswith("-"):
             how.update(metavar=names[0], nargs="+" if option.get("repeatable") else None)
-            names = [_name_of(option)]
+            names = [names[0].lower()]
         else:
             how.update(metavar=option["takes"], choices=option.get("choices"), required=option.get("required", False))
             how.update({"action": "append", "default": []} if option.get("repeatable") else {})
-        parser.add_argument(*names, **how)
+        option["keyword"] = parser.add_argument(*names, **how).dest
     parsed, rest = parser.parse_known_intermixed_args(words)
     for word in rest:
         word = word.split("=")[0]
@@ -74,8 +69,9 @@ def _parsed(name: str, table: Dict[str, Any], words: Sequence[str]) -> Dict[str,
         if "" in (value if isinstance(value, list) else [value]):
             parser.error(f"--{key}: found nothing; allowed: a value, or leave the option out")
     for option in table["options"]:
-        if ("whole" in option or option.get("number")) and values[_name_of(option)] is not None:
-            values[_name_of(option)] = _number(option, values[_name_of(option)])
+        keyword = option["keyword"]
+        if ("whole" in option or option.get("number")) and values[keyword] is not None:
+            values[keyword] = _number(option, values[keyword])
     return values
 
 

@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 from . import _bbsim
 from ._experiment import Experiment, Motions
 from ._scenario import Array, InputError, Scenario, Settings, counted, fault, from_to, given, listed, refuse
-from ._task import Progress, as_json, carry_out, files_of, read_free_keys, refuse_own_controller, silent
+from ._task import Progress, as_json, carry_out, files_of, read_free_keys, refuse_own_controller, silent, write_all
 
 Size = Union[float, str, None]
 
@@ -414,9 +414,7 @@ def design(scenario: Union[Scenario, _bbsim.Given], free: Union[str, Sequence[st
         "sketch": player_sketch(hertz, commands, place) if sketch else "",
         "output": rig.edited(settings(name_of_table, place), comments) if output else "",
     }  # fmt: skip
-    for name, file in files.items():
-        if file:
-            _bbsim.write_file(file, texts[name])
+    write_all(rig, files, texts, lambda text: None)
     made = loads(texts["json"], object_hook=lambda its: SimpleNamespace(**its))
     better = circle and merits(slopes[0])[0] < merits(slopes[1])[0]
     circling = f"; the best circle has {frequency / _TURN:.3g} Hz" if circle else ""

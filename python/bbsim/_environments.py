@@ -125,6 +125,7 @@ class VectorEnv(_VectorBase):
         self.num_envs, self._randomize, self._reward = count, dict(draws), reward
         self._turn = threading.Lock()
         self._runs = _bbsim.Environments(given(scenario, set), count, list(self._randomize), record)
+        self.command_unit: str = self._runs.command_unit  # of an action: rad, rad/s^2, N m or V
         self._random = _generator(seed)
         self._options: Dict[str, Any] = {}
         self._over, self._begun = np.zeros((2, count), dtype=bool)
@@ -135,11 +136,6 @@ class VectorEnv(_VectorBase):
         self.observation_space = Box(-np.inf, np.inf, (count, width), np.float64)
         self.single_action_space = Box(-limit, limit, dtype=np.float64)
         self.action_space = Box(-limits, limits, dtype=np.float64)
-
-    @property
-    def command_unit(self) -> str:
-        """The unit of an action: rad, rad/s^2, N m or V."""
-        return self._runs.command_unit
 
     def _beginnings(self, which: Array, random: np.random.Generator, options: Mapping[str, Any]) -> Any:
         """The runs, and what is drawn for the new episode of each: values and a seed."""

@@ -154,8 +154,8 @@ class _Task:
         moved = [given.text_at(f"{key.removesuffix('.file')}.time_offset") for key, _ in given.tables()]
         self.hint = "; --time-offset start moves the log as the tables are" if time_offset is None and "start" in moved else ""
         for file in self.files:
-            stored, notes = _bbsim.read_log(file, choice)
-            self.warnings += [without_folders(note) for note in notes]
+            stored = _bbsim.read_log(file, choice)
+            self.warnings += [without_folders(note) for note in stored.notes]
             self.columns = self.columns or _compared(given, maps, stored, self.warnings)
             its = [(key, f"'{os.path.abspath(file)}'") for key in tables if len(self.files) > 1]
             self.logs.append(_log(run.changed(its), stored, self.columns, self.warnings))

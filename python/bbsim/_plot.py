@@ -87,9 +87,8 @@ class _Options:
                 results.append(_in_memory(file))
                 continue
             with as_files(file) as (name,):
-                result, notes = _bbsim.read_result(name, beside, self.log)
-            results.append(result)
-            for note in notes:
+                results.append(_bbsim.read_result(name, beside, self.log))
+            for note in results[-1].notes:
                 say(without_folders(note))
         return results
 

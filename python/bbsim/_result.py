@@ -241,7 +241,7 @@ class Linearization(_StateSpace):
         self.kind, self.at, self.note = (str(text) for text in (linear.kind, linear.at, linear.note))
         self._json: Dict[str, Any] = json.loads(linear.json)
         self._report: str = linear.report.rstrip("\n")
-        self._loops = {name: OpenLoop(loop) for name, loop in linear.open_loops.items()}
+        self._loops = {loop.command: OpenLoop(loop.open) for loop in linear.open_loops}
         self._frequencies = np.array(linear.frequencies)  # at which to look at these loops
 
     @property

@@ -30,14 +30,16 @@ std::string name_of(const py::object& function) {
 
 // With the names of docs/reference/controllers.md.
 void define_sample(py::module_& module) {
-  const auto of = [](Pair Sample::*member) {
-    return [member](const Sample& sample) { return py::tuple(py::cast(sample.*member)); };
+  const auto of = []<class Member>(Member Sample::*member) {
+    return [member](const Sample& sample) -> py::object {
+      const py::object list = py::cast(sample.*member);
+      return list.is_none() ? list : py::tuple(list);
+    };
   };
   const auto of_servos = [](std::array<double, 3> Sample::*member) {
-    return [member](const Sample& sample) -> py::tuple {
-      const auto& all = sample.*member;
-      return sample.commands == 3 ? py::make_tuple(all[0], all[1], all[2])
-                                  : py::make_tuple(all[0], all[1]);
+    return [member](const Sample& sample) {
+      const double* const all = (sample.*member).data();
+      return py::tuple(py::cast(std::vector<double>(all, all + sample.commands)));
     };
   };
   attributes(
@@ -46,12 +48,8 @@ void define_sample(py::module_& module) {
           "What a callable controller receives, as attributes and as items: the sample's number, t "
           "(s), ball (m; None if it is not seen), reference, reference_rate, "
           "reference_acceleration (m, s), servo, servo_rate (rad, s)."),
-      "sample", &Sample::number, "t", &Sample::t, "ball",
-      [](const Sample& sample) -> py::object {
-        if (!sample.ball) return py::none();
-        return py::tuple(py::cast(*sample.ball));
-      },
-      "reference", of(&Sample::reference), "reference_rate", of(&Sample::reference_rate),
+      "sample", &Sample::number, "t", &Sample::t, "ball", of(&Sample::ball), "reference",
+      of(&Sample::reference), "reference_rate", of(&Sample::reference_rate),
       "reference_acceleration", of(&Sample::reference_acceleration), "servo",
       of_servos(&Sample::servo), "servo_rate", of_servos(&Sample::servo_rate))
       .def("__getitem__",

@@ -258,13 +258,9 @@ void define_linearize(py::module_& module) {
       [](const Linearized& made) { return model::open_loop_frequencies(made.linearization); },
       "json", [](const Linearized& made) { return api::file_text(made, ".json"); }, "report",
       [](const Linearized& made) { return to_text(api::report_of(made)); }, "open_loops",
-      [](const Linearized& made) {
-        std::map<std::string, LinearSystem> loops;
-        for (const auto& its : made.linearization.margins) {
-          loops.emplace(its.command, its.open);
-        }
-        return loops;
-      });
+      [](const Linearized& made) { return made.linearization.margins; });
+  attributes(py::class_<model::LoopMargins>(module, "LoopMargins"), "command",
+             &model::LoopMargins::command, "open", &model::LoopMargins::open);
   module.def("response", &response);
   module.def("linearize", &linearize);
 }

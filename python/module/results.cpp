@@ -47,23 +47,20 @@ const Column& column_of(const Result& result, const std::string& name) {
   return *found;
 }
 
-// The result, with the instant at which an event ended it as its last row; and notes on what a log
+// The result, with the instant at which an event ended it as its last row. Its notes say what a log
 // was changed to.
-std::pair<Result, Texts> read_result(const std::string& file, const results::Beside& beside,
-                                     const results::LogChoice& log) {
+Result read_result(const std::string& file, const results::Beside& beside,
+                   const results::LogChoice& log) {
   results::refuse_auto(log);
-  std::pair<Result, Texts> made;
-  made.first = results::read_result(file, beside, log);
-  made.second = made.first.notes;
-  if (!made.first.left_out.empty()) made.second.push_back(made.first.left_out);
-  results::add_end_row(made.first);
+  Result made = results::read_result(file, beside, log);
+  if (!made.left_out.empty()) made.notes.push_back(made.left_out);
+  results::add_end_row(made);
   return made;
 }
 
-std::pair<Result, Texts> read_log(const std::string& file, const results::LogChoice& choice) {
+Result read_log(const std::string& file, const results::LogChoice& choice) {
   results::refuse_auto(choice);
-  Result log = results::read_log(file, choice);
-  return {log, log.notes};
+  return results::read_log(file, choice);
 }
 
 // `columns`: for each, its name, its unit, its numbers, and its texts if it is one of texts.
@@ -215,8 +212,8 @@ void define_results(py::module_& module) {
       py::class_<Result>(module, "Stored"), "file", &Result::file, "rows", &Result::rows, "title",
       &Result::title, "status", &Result::status, "end_time", &Result::end_time, "events",
       &Result::events, "units_known", &Result::units_known, "has_end_row", &Result::has_end_row,
-      "shown_file", &Result::shown_file, "is_sweep", &Result::is_sweep, "names", &Result::names,
-      "raw", &Result::raw, "scenario_text",
+      "shown_file", &Result::shown_file, "notes", &Result::notes, "is_sweep", &Result::is_sweep,
+      "names", &Result::names, "raw", &Result::raw, "scenario_text",
       [](const Result& one) { return one.scenario ? one.scenario->source.text : ""; }, "plate",
       &plate_of, "friction", &friction_of, "controller", &controller_of)
       .def(py::init(&in_memory))

@@ -78,12 +78,10 @@ Json plots_json() {
   return plots;
 }
 
-std::vector<double> parts_of(const std::vector<Quaternion>& orientation,
-                             const std::vector<std::size_t>& rows) {
+template <class Point>
+std::vector<double> one_list(const std::vector<Point>& points) {
   std::vector<double> parts;
-  for (const std::size_t row : orientation.empty() ? std::vector<std::size_t>{} : rows) {
-    parts.insert(parts.end(), orientation[row].begin(), orientation[row].end());
-  }
+  for (const Point& point : points) parts.insert(parts.end(), point.begin(), point.end());
   return parts;
 }
 
@@ -111,12 +109,6 @@ Json events_json(const Run& run) {
                       {"y", event.y}});
   }
   return events;
-}
-
-Json reference_json(const Run& run, const Numbers& numbers) {
-  std::vector<double> points;
-  for (const auto& point : run.reference) points.insert(points.end(), point.begin(), point.end());
-  return numbers.floats(std::move(points));
 }
 
 Json poles_json(const Poles& poles) {
@@ -187,14 +179,15 @@ Json run_json(const Run& run, const Stage& stage, std::size_t most, const Number
   json["rods"] = push_rods_json(scenario.gimbal);
   json["time"] = times_json(picked(run.find("t")->numbers, kept.rows), numbers);
   json["columns"] = columns_json(run, kept.rows, numbers);
-  json["orientation"] = numbers.parts(parts_of(orientation, kept.rows));
+  json["orientation"] =
+      numbers.parts(one_list(orientation.empty() ? orientation : picked(orientation, kept.rows)));
   json["orientationGiven"] = !run.orientation.empty();
   json["reached"] = run.end_time ? Json(*run.end_time) : Json();
   json["hasEndRow"] = run.has_end_row;
   json["unitsKnown"] = run.units_known;
   json["events"] = events_json(run);
   json["eventCount"] = run.events.size();
-  json["reference"] = reference_json(run, numbers);
+  json["reference"] = numbers.floats(one_list(run.reference));
   const auto& slip = scenario.events.slip;
   json["friction"] = slip ? Json(slip->friction) : Json();
   json["scenario"] = source_json(scenario.source);

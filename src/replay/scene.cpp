@@ -152,7 +152,6 @@ Stage stage_of(const Scene& scene) {
     stage.width = plate.size ? (*plate.size)[0] : *plate.diameter;
     stage.depth = plate.size ? (*plate.size)[1] : *plate.diameter;
   }
-  stage.ball_given = ball.has_value();
   if (!stage.plate_given) fit_plate(stage, extent(scene), ball.value_or(0));
   // On a beam, the ball may be as large as on a plate of the same length.
   constexpr double ball_part = 1.0 / 30;

@@ -129,8 +129,7 @@ struct Stage {
   double width = 0, depth = 0;  // of the plate along x and y, m
   bool round = false;
   bool plate_given = false;  // otherwise it fits the paths
-  double ball_radius = 0;    // of the leading run, m
-  bool ball_given = false;   // otherwise a thirtieth of the plate
+  double ball_radius = 0;    // of the leading run, m; a thirtieth of the plate if it is unknown
 };
 
 // The stage for all runs of the scene. The first run with a plate defines the plate. Otherwise the

@@ -128,12 +128,6 @@ bbsim.data = (() => {
       return place.every(Number.isFinite) ? place : 'missing';
     }
 
-    // The row nearest to t.
-    nearest(t) {
-      const row = this.row(t);
-      return row + 1 < this.t.length && this.t[row + 1] - t < t - this.t[row] ? row + 1 : row;
-    }
-
     // Writes the ball's orientation in the plane's frame to a THREE.Quaternion.
     orientationAt(t, into) {
       if (this.hand) return into.copy(this.hand.turned);

@@ -42,9 +42,7 @@ bbsim.makeFan = (cases, requestOf) => {
 
     paint(ink, area, graph, curves, factor) {
       ink.save();
-      ink.beginPath();
-      ink.rect(area.x, area.y, area.w, area.h);
-      ink.clip();
+      ink.clip(new Path2D(`M${area.x} ${area.y}h${area.w}v${area.h}h${-area.w}z`));
       for (const curve of curves) {
         const band = curve.role === 'main' && this.bandOf(curve.name);
         if (!band) continue;

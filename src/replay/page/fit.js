@@ -31,12 +31,12 @@
     get('remarks').append(element('li', {class: words.startsWith('not identifiable') ? 'untold' : false}, words));
   }
 
-  // A row without numbers separates two windows; `nearest` must not return it.
+  // The row nearest to a time. A row without numbers separates two windows; it does not count.
   for (const run of runs) {
     run.windowAt = (row) => run.windows.find(({last}) => row <= last) || run.windows[run.windows.length - 1];
-    const nearest = run.nearest.bind(run);
     run.nearest = (t) => {
-      const row = nearest(t);
+      const before = run.row(t), after = Math.min(before + 1, run.t.length - 1);
+      const row = run.t[after] - t < t - run.t[before] ? after : before;
       if (row >= run.windowAt(row).first) return row;
       return t - run.t[row - 1] < run.t[row + 1] - t ? row - 1 : row + 1;
     };
@@ -65,9 +65,7 @@
   function paintWindows(run) {
     return (ink, area, graph, {isResidual}) => {
       ink.save();
-      ink.beginPath();
-      ink.rect(area.x, area.y, area.w, area.h);
-      ink.clip();
+      ink.clip(new Path2D(`M${area.x} ${area.y}h${area.w}v${area.h}h${-area.w}z`));
       const x = (row) => graph.toDomXCoord(run.t[row]);
       ink.fillStyle = palette.isDark() ? 'rgba(200, 210, 220, .15)' : 'rgba(60, 75, 90, .13)';
       for (const {first, last, held} of run.windows) {

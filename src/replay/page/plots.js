@@ -35,17 +35,13 @@ bbsim.makePlots = (container, {behind = null, pointed = null} = {}) => {
     return (graph, name, ink, x, y, colour, size) => {
       if (hides(x, y)) return;
       [last, lastY] = [x, y];
-      ink.beginPath();
       if (cross) {
         ink.strokeStyle = colour;
         ink.lineWidth = 1.2;
-        ink.moveTo(x - size, y);
-        ink.lineTo(x + size, y);
-        ink.moveTo(x, y - size);
-        ink.lineTo(x, y + size);
-        ink.stroke();
+        ink.stroke(new Path2D(`M${x - size} ${y}h${2 * size}M${x} ${y - size}v${2 * size}`));
       } else {
         ink.fillStyle = colour;
+        ink.beginPath();
         ink.arc(x, y, size, 0, 2 * Math.PI);
         ink.fill();
       }
