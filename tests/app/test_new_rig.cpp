@@ -6,36 +6,9 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "process.hpp"
 #include "shell.hpp"
 
 namespace bbsim_test::test_new_rig {
-
-namespace {
-
-// Checks that the ball ends near its reference and nothing ends the run early.
-void check_balances(const Folder& folder, const std::string& within) {
-  const Result run = expect(
-      0, "run my-rig.yaml -o /dev/null -q --expect 'max_tracking_error from 10 s < " + within + "'",
-      folder);
-  CHECK(run.err.empty());
-}
-
-}  // namespace
-
-TEST_CASE("the rig scenario of every class balances its ball", "[slow]") {
-  const Folder folder;
-  const std::string plate = GENERATE("'300 mm x 200 mm'", "'250 mm'");
-  const std::string ball = GENERATE("ping-pong", "steel", "rubber", "golf");
-  const std::string servo = GENERATE("hobby-standard", "hobby-micro", "smart-serial");
-  const std::string legs = GENERATE("2", "3");
-  const std::string sensor = GENERATE("--camera '30 Hz'", "--touch '50 Hz'");
-  expect(0,
-         "new rig --plate " + plate + " --ball " + ball + " --servo " + servo + " --legs " + legs +
-             " " + sensor,
-         folder);
-  check_balances(folder, servo == "hobby-micro" ? "8 mm" : "2 mm");
-}
 
 TEST_CASE("on a terminal, a rig without options is set up by questions") {
   const Folder folder;

@@ -3,7 +3,6 @@
 
 // Noise: normal and the same on every machine.
 #include <cmath>
-#include <vector>
 
 #include "catch.hpp"
 #include "model/control/sampled_controller.hpp"

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The lines that bbsim and an external program exchange.
+#include <yaml-cpp/yaml.h>
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -141,56 +143,18 @@ TEST_CASE("an answer over a serial line has bytes and numbers, and says which is
   }
 }
 
-TEST_CASE("faults of an answer are reported with the answer") {
-  const auto [line, told] = GENERATE(table<std::string, std::string>({
-      {"", "allowed: {\"command\": [PHI, THETA]}"},
-      {"tilt 0.1", "its answer was \"tilt 0.1\": standard output is only for answers"},
-      {"[0.1, 0.2]", "allowed"},
-      {"{\"command\": [0.1, 0.2]", "allowed"},
-      {"{\"command\": [0.1 0.2]}", "allowed"},
-      {"{\"command\": [\"0.1\", 0.2]}", "found a command that is not two numbers"},
-      {"{\"command\": [.1, 0.2]}", "allowed"},
-      {"{\"command\": [inf, 0.2]}", "found a command that is not a finite number"},
-      {"{\"command\": [-Infinity, 0.2]}", "found a command that is not a finite number"},
-      {"{\"command\": [null, 0.2]}", "found a command that is not two numbers"},
-      {"{\"command\": [0, 0], \"u\": \"a\"}", "found \"u\" that is not a number"},
-      {"{\"command\": [0, 0], \"a\": NaN}", "found \"a\" that is not a finite number"},
-      {"{\"command\": [0, 0]}", "found no \"a\", which output.columns asks for"},
-      {"{\"command\": [0, 0], \"a\": 1}}", "allowed"},
-      {"{\"command\": [0, 0], \"a\\", "allowed"},
-      {"{\"a\": 1}", "found no command"},
-      {"{\"comand\": [0.1, 0.2]}", "found \"comand\" (did you mean command?); allowed"},
-      {"{\"command\": [0, 0], \"aa\": [1]}", "found \"aa\" that is not a number; allowed"},
-      {"{\"Command\": 1, \"a\": 1}",
-       "found no command, but \"Command\" (did you mean command?); allowed"},
-      {"{\"command\": [0, 0], \"error\": null}", "found \"error\" that is not a string; allowed"},
-      {"{\"error\": \"no \\\"kp\\\"\"}", "it gave up: \"no \"kp\"\""},
-  }));
-  CAPTURE(line);
-  CHECK(contains(read(line, {"a"}).fault, told));
-}
-
-TEST_CASE("the greeting's faults are reported, a misspelled name with the likely one") {
-  const auto [line, told] = GENERATE(table<std::string, std::string>({
-      {"", ""},
-      {"hello", ""},
-      {"[]", ""},
-      {"{}", ""},
-      {"{\"protocol\": 2}", ""},
-      {"{\"protocol\": \"1\"}", ""},
-      {"{\"protocol\": 1, \"reset\": 1}", ""},
-      {"{\"protocol\": 1, \"columns\": [\"u\"]}", ""},
-      {"{\"protocol\": 1, \"columns\": {\"u\": 1}}", ""},
-      {"{\"protocol\": 1, \"rest\": true}", "found \"rest\" (did you mean reset?); allowed"},
-      {"{\"protocoll\": 1}",
-       "found no protocol, but \"protocoll\" (did you mean protocol?); allowed"},
-      {"{\"protocol\": 1, \"fields\": [\"refrence\"]}",
-       "found a field \"refrence\" (did you mean reference?); allowed: those of the hello"},
-  }));
-  const std::string fault = controller::read_ready(line).fault;
-  CAPTURE(line, fault);
-  CHECK_FALSE(fault.empty());
-  CHECK(contains(fault, told));
+TEST_CASE("faults of a controller's lines are told, a misspelled name with the likely one") {
+  const YAML::Node page = YAML::LoadFile(BBSIM_SOURCE_DIR "/tests/controller/faults.yaml");
+  for (const std::string kind : {"answers", "greetings"}) {
+    for (const YAML::Node& row : page[kind]) {
+      const auto line = row[0].as<std::string>();
+      const std::string fault =
+          kind == "answers" ? read(line, {"a"}).fault : controller::read_ready(line).fault;
+      CAPTURE(line, fault);
+      CHECK_FALSE(fault.empty());
+      CHECK(contains(fault, row[1].as<std::string>()));
+    }
+  }
 }
 
 TEST_CASE("a column that an answer lacks is reported with the likely name, if there is one") {

@@ -4,10 +4,8 @@
 // CSV, written and read back bit for bit; bad input is refused with its place.
 #include <sys/stat.h>
 
-#include <bit>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <random>

@@ -553,19 +553,6 @@ TEST_CASE("firmware with wrong leg dimensions has a table that is not level") {
   CHECK(std::abs(mechanism_of(scene).tilt(mechanism_of(scene).commands_for({0, 0}))[0]) < 1e-14);
 }
 
-TEST_CASE("three servos: the workspace ends where a leg is stretched or folded") {
-  const ThreeServos three = make_three_servos(hobby_plate(), Assumed::exact);
-  // Downward on the first leg's side until the margin is zero.
-  double low = 0, high = 1.2;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = (low + high) / 2;
-    const double servo[3] = {-middle, 0, 0};
-    (three.margin(servo) > 0 ? low : high) = middle;
-  }
-  CHECK(low > 0.2);
-  CHECK(low < 1.2);
-}
-
 TEST_CASE("three servos: a ratio is the inverse's slope at home") {
   const ThreeServoPlate plate = GENERATE(hobby_plate(), unequal_plate());
   const ThreeServos exact = make_three_servos(plate, Assumed::exact);

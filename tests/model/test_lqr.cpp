@@ -42,10 +42,6 @@ Scenario lqr_scene(bool sampled) {
   return scene;
 }
 
-double largest(const model::Eigenvalues& poles) {
-  return std::abs(poles.front());
-}
-
 }  // namespace
 
 TEST_CASE("Riccati equations with known solutions") {
@@ -100,13 +96,6 @@ TEST_CASE("LQR gains of the rig solve their equation and stabilize it") {
   CHECK(residual.norm() < 1e-12 * quadratic.norm());
 }
 
-TEST_CASE("LQR brings the ball home, sampled or continuous") {
-  const bool sampled = GENERATE(false, true);
-  const Run run = run_in_memory(lqr_scene(sampled), Method::automatic, {1e-9, 1e-11}, false);
-  REQUIRE(run.outcome.ending == solve::Ending::done);
-  CHECK(std::hypot(run.samples.back().ball.x, run.samples.back().ball.y) < 1e-3);
-}
-
 namespace {
 
 // Without sensor and servo errors a small motion is linear: a cycle of samples multiplies the state
@@ -121,8 +110,7 @@ void check_recurrence(const Scenario& scene, std::size_t samples) {
     for (std::size_t i = polynomial.size() - 1; i > 0; --i)
       polynomial[i] -= pole * polynomial[i - 1];
   }
-  const Run run = run_in_memory(scene, Method::automatic, {1e-11, 1e-19}, false);
-  REQUIRE(run.outcome.ending == solve::Ending::done);
+  const Run run = whole_run(scene, Method::automatic, {1e-11, 1e-19}, false);
   const std::size_t n = poles.size();
   int instants = 0;
   // Start when all exposures from before the start have passed the delays.
@@ -215,24 +203,6 @@ TEST_CASE("frames that never coincide with samples, or jitter, are not in the po
   scene.controller->sampling->jitter = 1e-4;
   CHECK_FALSE(model::common_cycle(*scene.controller->sampling, *scene.controller->sensor).known);
   CHECK(model::sampled_poles(model::assemble(scene, false)) == plain);
-}
-
-TEST_CASE("delays make a sampled loop unstable when its poles say so") {
-  Scenario scene = lqr_scene(true);
-  scene.controller->law = Law::pd;
-  scene.controller->kp = {{{1.5, 0}, {0, -1.5}}};
-  scene.controller->kv = {{{0.9, 0}, {0, -0.9}}};
-  scene.ball.position = {1e-5, 1e-5};
-  const bool slow = GENERATE(false, true);
-  scene.controller->sampling = Sampling{0.02, slow ? 0.12 : 0.01, 0, 0.01};
-  const model::Model model = model::assemble(scene, false);
-  const double size = largest(model::sampled_poles(model));
-  CHECK((size > 1) == slow);
-  scene.time = {4, 0.02};
-  const Run run = run_in_memory(scene, Method::automatic, {1e-9, 1e-15}, false);
-  REQUIRE(run.outcome.ending == solve::Ending::done);
-  const double end = std::abs(run.samples.back().ball.x);
-  CHECK((end > 1e-5) == slow);
 }
 
 }  // namespace bbsim_test::test_lqr

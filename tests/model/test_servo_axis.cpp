@@ -3,7 +3,6 @@
 
 // Crossings of a servo's guards under a held command, and its clearance from them; its modes are in
 // tests/solve/test_servo.cpp.
-#include <cmath>
 #include <vector>
 
 #include "catch.hpp"

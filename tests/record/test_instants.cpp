@@ -3,7 +3,6 @@
 
 // Step metrics and instants of the continuous motion, against closed forms.
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -21,8 +20,6 @@ namespace bbsim_test::test_instants {
 
 using namespace bbsim;
 using namespace bbsim::record;
-using scenario::find_measure;
-using scenario::Measure;
 
 namespace {
 
@@ -182,96 +179,11 @@ TEST_CASE("crossings are counted, touches are not") {
   CHECK_FALSE(curve.place_at(-1));
 }
 
-TEST_CASE("measures of stored rows use linear interpolation") {
-  const StoredRun run({{"t", "u_integral", "x"}, {{0, 1, 2, 3}, {0, 1, 4, 4}, {-2, 0, 2, 1}}},
-                      "own.csv");
-  const auto value = [&](const std::string& name) {
-    return run.value_of(run.measures_named({name}).front()).value;
-  };
-  CHECK(value("u_integral.RiseTime") == Approx((1 + 2.6 / 3) - 0.4).epsilon(1e-15));
-  CHECK(value("u_integral.SettlingTime") == Approx(1 + 2.92 / 3).epsilon(1e-15));
-  CHECK(value("x.Overshoot") == Approx(100.0 / 3));  // step from -2 to 1
-  CHECK(value("x.Undershoot") == 0);
-  CHECK(value("x.Peak") == 2);
-  CHECK(value("x.PeakTime") == 2);
-  CHECK(value("when x=1") == Approx(1.5));
-  CHECK(value("find u_integral when x=1 rise=1") == Approx(2.5));
-  CHECK(value("when x stays above -1") == Approx(0.5));
-  CHECK(std::isnan(value("when x stays below 0.5")));
-  CHECK(value("when x stays below 3") == 0);
-  CHECK(std::isnan(value("when x=7")));
-  CHECK(value("find x at 2.5") == Approx(1.5));
-  CHECK(value("min_x") == -2);
-  CHECK(value("rms_x") == Approx(1.5));
-  CHECK(value("end_x") == 1);
-  CHECK_THROWS_AS(run.measures_named({"y.RiseTime"}), InputError);
-  CHECK_THROWS_AS(run.measures_named({"x.Peak", "x.Peak"}), InputError);
-  CHECK_THROWS_AS(StoredRun({{"x"}, {{1}}}, "no-times.csv"), InputError);
+TEST_CASE("stored rows whose times go back are refused") {
   CHECK_THROWS_AS(StoredRun({{"t", "x"}, {{1, 0}, {1, 1}}}, "back.csv"), InputError);
-  CHECK_THROWS_AS(StoredRun({{"t"}, {{}}}, "empty.csv"), InputError);
-  // A step to 0 is valid; one row is a run that ended immediately, without a step.
-  const StoredRun back({{"t", "x"}, {{0, 1}, {3, 0}}}, "zero.csv");
-  CHECK(back.value_of(back.measures_named({"x.SettlingTime"}).front()).value == Approx(0.98));
-  const StoredRun still({{"t", "x"}, {{0}, {3}}}, "still.csv");
-  const Measured none = still.value_of(still.measures_named({"x.RiseTime"}).front());
-  CHECK(std::isnan(none.value));
-  CHECK(none.why == std::string("it should end where it starts, so its step is 0"));
 }
 
-TEST_CASE("measures of stored rows pass over values that a row lacks") {
-  const double none = std::nan("");
-  const StoredRun run({{"t", "x"}, {{0, 1, 2, 3, 4, 5, 6}, {none, 1, 2, none, none, 5, none}}},
-                      "gaps.csv");
-  const auto value = [&](const std::string& name) {
-    return run.value_of(run.measures_named({name}).front()).value;
-  };
-  for (const double at : {2.0, 2.5, 3.0, 4.0}) {
-    CHECK(value("find x at " + std::to_string(at)) == Approx(at));
-    CHECK(value("when x=" + std::to_string(at)) == Approx(at));
-  }
-  CHECK(value("max_x from 2.5 to 3.5") == Approx(3.5));
-  CHECK(value("rms_x") == Approx(std::sqrt(10.0)));  // of 1, 2 and 5
-  CHECK(value("find x at 5") == 5);                  // only empty cells follow
-  CHECK(std::isnan(value("find x at 0.5")));
-  CHECK(std::isnan(value("end_x")));
-}
-
-TEST_CASE("step metrics are relative to the step from start to reference") {
-  // From -3 cm to +3 cm, 2.47 cm too far: 41 % of 6 cm.
-  const std::vector<double> t{0, 1, 2, 3, 4}, x{-0.03, -0.035, 0.0547, 0.03, 0.03};
-  const StoredRun run({{"t", "x", "x_reference"}, {t, x, {0, 0, 0.03, 0.03, 0.03}}}, "step.csv");
-  const auto value = [](const StoredRun& of, const std::string& name) {
-    return of.value_of(of.measures_named({name}).front());
-  };
-  CHECK(value(run, "x.Overshoot").value == Approx(100 * 2.47 / 6));
-  CHECK(value(run, "x.Undershoot").value == Approx(100 * 0.5 / 6));
-  const double rise = 0.0547 + 0.035;  // in the second from 1 to 2
-  CHECK(value(run, "x.RiseTime").value == Approx((0.024 + 0.024) / rise));
-  CHECK(value(run, "x.SettlingTime").value == Approx(3 - 0.0012 / 0.0247));
-  CHECK(value(run, "x.SettlingMin").value == Approx(0.024));
-  CHECK(value(run, "x.SettlingMax").value == 0.0547);
-  CHECK(value(run, "x.Peak").value == 0.0547);
-  CHECK(value(run, "x.PeakTime").value == 2);
-  CHECK(value(run, "x.SteadyStateValue").value == 0.03);
-  // If the reference is not reached, a missing number has a reason.
-  const StoredRun far({{"t", "x", "x_reference"}, {t, x, {1, 1, 1, 1, 1}}}, "far.csv");
-  for (const char* name : {"x.RiseTime", "x.SettlingTime", "x.SettlingMin"}) {
-    CAPTURE(name);
-    const Measured none = value(far, name);
-    CHECK(std::isnan(none.value));
-    CHECK(none.why != nullptr);
-  }
-  CHECK(value(far, "x.Overshoot").value == 0);
-  // The same step from another start, or in the other direction, has the same metrics.
-  const StoredRun plain({{"t", "u"}, {t, x}}, "plain.csv");
-  std::vector<double> moved = x;
-  for (double& one : moved) one = 0.07 - one;
-  const StoredRun other({{"t", "u"}, {t, moved}}, "other.csv");
-  for (const char* name : {"u.Overshoot", "u.Undershoot", "u.RiseTime", "u.SettlingTime"}) {
-    CAPTURE(name);
-    CHECK(value(plain, name).value == Approx(value(other, name).value).epsilon(1e-12));
-  }
-  // A scene's step from another start too.
+TEST_CASE("step metrics do not depend on the start") {
   Scenario scene = servo_step(5, 0.5);
   const std::vector<std::string> names{"phi.Overshoot", "phi.RiseTime", "phi.SettlingTime",
                                        "phi.PeakTime"};
@@ -284,39 +196,7 @@ TEST_CASE("step metrics are relative to the step from start to reference") {
   }
 }
 
-TEST_CASE("a step of zero has no metrics, with the reason") {
-  const StoredRun run({{"t", "x", "x_reference"}, {{0, 1, 2}, {0.3, 0.5, 0.4}, {0, 0.1, 0.3}}},
-                      "none.csv");
-  for (const char* name :
-       {"x.RiseTime", "x.SettlingTime", "x.SettlingMin", "x.SettlingMax", "x.Overshoot",
-        "x.Undershoot", "x.Peak", "x.PeakTime", "x.SteadyStateValue"}) {
-    CAPTURE(name);
-    const Measured none = run.value_of(run.measures_named({name}).front());
-    CHECK(std::isnan(none.value));
-    CHECK(none.why == std::string("it should end where it starts, so its step is 0"));
-  }
-}
-
-TEST_CASE("stays above mirrors stays below, also from the level itself") {
-  const auto when = [](std::vector<double> values, const std::string& condition) {
-    std::vector<double> times;
-    for (std::size_t i = 0; i < values.size(); ++i) times.push_back(static_cast<double>(i));
-    const StoredRun run({{"t", "x"}, {times, std::move(values)}}, "rows.csv");
-    return run.value_of(run.measures_named({"when x stays " + condition}).front()).value;
-  };
-  const std::vector<std::vector<double>> rows{{0, 1, 2},    {1, 2, 3},       {1, 1, 2},
-                                              {0, 1, 1, 2}, {2, 1, 2},       {0, 2, 1},
-                                              {2, 2},       {0, 3, 0, 3, 3}, {1, 1}};
-  const std::vector<double> right{1, 0, 1, 2, 1, std::nan(""), 0, 2 + 1.0 / 3, std::nan("")};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    CAPTURE(i);
-    std::vector<double> turned = rows[i];
-    for (double& one : turned) one = -one;
-    const double above = when(rows[i], "above 1"), below = when(turned, "below -1");
-    CHECK((above == below || (std::isnan(above) && std::isnan(below))));
-    CHECK((above == Approx(right[i]) || (std::isnan(above) && std::isnan(right[i]))));
-  }
-  // A motion that starts at the level.
+TEST_CASE("a motion that starts at a level stays above or below it from the start") {
   const Scenario ramps = parse_scenario(
       "ball: {radius: 0.01}\n"
       "gimbal: {motion: {phi: {ramp: {start: -0.1, rate: 0.1}},\n"
@@ -400,26 +280,6 @@ TEST_CASE("measures of a window equal those of a run over the window only") {
   for (const int t : {3, 4, 5}) sum += exact.at(t) * exact.at(t);
   CHECK(values[11] == Approx(0.1 * std::sqrt(sum / 3)).epsilon(1e-9));
   CHECK(std::isnan(values[12]));
-}
-
-TEST_CASE("a window of stored rows is cut by linear interpolation") {
-  const StoredRun run({{"t", "x"}, {{0, 1, 2, 3, 4}, {0, 2, 1, 5, 3}}}, "rows.csv");
-  const auto value = [&](const std::string& name) {
-    return run.value_of(run.measures_named({name}).front()).value;
-  };
-  CHECK(value("max_x from 0.25 s to 0.75 s") == 1.5);
-  CHECK(value("min_x from 0.25 s to 0.75 s") == 0.5);
-  CHECK(std::isnan(value("rms_x from 0.25 s to 0.75 s")));
-  CHECK(value("max_x to 2") == 2);
-  CHECK(value("end_x to 2.5 s") == 3);
-  CHECK(value("rms_x from 1 s to 2 s") == Approx(std::sqrt(2.5)));
-  CHECK(value("x.Overshoot from 1.5 s") == Approx(100 * 2 / 1.5));
-  CHECK(value("when x=4 from 3 s") == Approx(3.5));
-  for (const char* wrong : {"max_x from 3 s to 3 s", "max_x from 3 s to 2 s", "max_x from 4 s",
-                            "max_x to 0 s", "max_x to 5 s", "max_x from -1 s"}) {
-    CAPTURE(wrong);
-    CHECK_THROWS_AS(run.measures_named({wrong}), InputError);
-  }
 }
 
 }  // namespace bbsim_test::test_instants

@@ -67,21 +67,4 @@ TEST_CASE("logs of many styles are read, or refused with row and remedy") {
   }
 }
 
-TEST_CASE("a map is refused if its place is wrong") {
-  const Folder folder;
-  const std::string file = folder.put("log.csv", "t,px\n0,1\n1,2\n");
-  const auto [choice, said] = GENERATE(table<LogChoice, std::string>({
-      {{{"x"}, {}, "", ""}, "COLUMN=NAME:UNIT"},
-      {{{"x=px:s"}, {}, "", ""}, "x=px:s\", a time: x is in m; allowed: no unit"},
-      {{{"x=px:foo"}, {}, "", ""}, "x=px:foo\", in an unknown unit"},
-      {{{"x=2*"}, {}, "", ""}, "x=2*\"; allowed: COLUMN=NAME"},
-      {{{"x="}, {}, "", ""}, "x=\"; allowed: COLUMN=NAME"},
-      {{{"xx=px"}, {}, "", ""}, "there is no column \"xx\""},
-      {{{"x=px", "x=t"}, {}, "", ""}, "x is given twice"},
-      {{{}, {}, "", "later"}, "--time-offset: found \"later\""},
-      {{{}, {}, "0 s", ""}, "--period"},
-  }));
-  CHECK_THROWS_WITH(results::read_log(file, choice), Contains(said));
-}
-
 }  // namespace bbsim_test::test_log

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <string>
-#include <variant>
 
 #include "base/error.hpp"
 #include "catch.hpp"

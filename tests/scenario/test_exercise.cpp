@@ -27,12 +27,7 @@ const std::string closed_loop =
 // What checked_exercise() says of the section.
 std::string faults(const std::string& section) {
   const bbsim::Scenario scenario = parse(closed_loop + section + '\n');
-  try {
-    static_cast<void>(checked_exercise(scenario));
-  } catch (const bbsim::InputError& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<bbsim::InputError>([&] { static_cast<void>(checked_exercise(scenario)); });
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Keys of linkages, three servos, servos by axis, clocks, frames and pushes.
+#include <yaml-cpp/yaml.h>
+
 #include <vector>
 
 #include "catch.hpp"
@@ -63,55 +65,21 @@ TEST_CASE("a linkage is read for both axes or for each one") {
 }
 
 TEST_CASE("a calibration is cleaned, and says how") {
-  struct Cleaned {
-    std::vector<double> servo, plate;  // as measured
-    std::string done;                  // part of what is said
-    std::vector<double> to_servo, to_plate;
-    bool changes = false, smoothed = false;
-  };
-  const std::vector<double> five{-2, -1, 0, 1, 2};
-  const std::vector<double> rising{-0.9, -0.5, 0, 0.4, 0.7}, falling{0.9, 0.5, 0, -0.4, -0.7};
-  const std::vector<double> back{-1, 0, 1, 0.5, 0};
-  const Cleaned all[] = {
-      {five, rising, "", five, rising},
-      {five, falling, "", five, falling},
-      {five, back, "", five, back},  // turns back: left for the model to refuse
-      {{2, 1, 0, 0, -1, -2},
-       {0.7, 0.4, 0.1, -0.1, -0.5, -0.9},
-       "rows sorted by the servo's angle, 1 repeated angle averaged",
-       five,
-       rising},
-      {{-3, -2, -1, 0, 1, 2, 3},
-       {0.75, 0.75, 0.5, 0, -0.5, -0.75, -0.75},
-       "flat up to -114.592 deg: a stop, flat from 114.592 deg: a stop",
-       five,
-       {0.75, 0.5, 0, -0.5, -0.75},
-       true},
-      // A flat end with its own noise.
-      {{-2, -1, 0, 1, 2, 3, 4, 5},
-       {-2, -1, 0, 1, 2.01, 2.03, 1.99, 2.02},
-       "flat from 114.592 deg: a stop",
-       five,
-       {-2, -1, 0, 1, 2.0125},
-       true},
-      {{-3, -2, -1, 0, 0.25, 1, 2, 3},
-       {-3, -2, -1, 0.25, 0.125, 1, 2, 3},
-       "2 rows of noise smoothed by at most 3.58099 deg",
-       {-3, -2, -1, 0.125, 1, 2, 3},
-       {-3, -2, -1, 0.1875, 1, 2, 3},
-       true,
-       true},
-  };
-  for (const Cleaned& one : all) {
-    CurveLinkage curve{"", one.servo, one.plate};
+  using Numbers = std::vector<double>;
+  for (const YAML::Node& row :
+       YAML::LoadFile(BBSIM_SOURCE_DIR "/tests/scenario/calibrations.yaml")) {
+    CurveLinkage curve{"", row["servo"].as<Numbers>(), row["plate"].as<Numbers>()};
+    const auto done = row["done"].as<std::string>("");
     const scenario::Calibration made = scenario::calibrate(curve);
-    CAPTURE(one.done);
-    CHECK(made.done.empty() == one.done.empty());
-    CHECK_THAT(made.done, Contains(one.done));
-    CHECK(made.changes == one.changes);
-    CHECK(curve.smoothed == one.smoothed);
-    CHECK(curve.servo == one.to_servo);
-    CHECK_THAT(curve.plate, Catch::Matchers::Approx(one.to_plate).epsilon(1e-15));
+    CAPTURE(done);
+    CHECK(made.done.empty() == done.empty());
+    CHECK_THAT(made.done, Contains(done));
+    CHECK(made.changes == row["changes"].as<bool>(false));
+    CHECK(curve.smoothed == row["smoothed"].as<bool>(false));
+    CHECK(curve.servo == (row["to servo"] ? row["to servo"] : row["servo"]).as<Numbers>());
+    CHECK_THAT(curve.plate, Catch::Matchers::Approx(
+                                (row["to plate"] ? row["to plate"] : row["plate"]).as<Numbers>())
+                                .epsilon(1e-15));
   }
   // From a scenario, in degrees because of a column's name.
   const Folder folder;

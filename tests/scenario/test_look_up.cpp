@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Single keys of a scenario's text: their places and their numbers.
-#include <string>
 
 #include "catch.hpp"
 #include "scenario/reader.hpp"

@@ -5,6 +5,7 @@
 #include "catch.hpp"
 #include "scenario/columns.hpp"
 #include "support/reading.hpp"
+#include "support/text.hpp"
 
 namespace bbsim_test::test_own_controller {
 
@@ -25,10 +26,6 @@ std::string scene(const std::string& controller, const std::string& rest = "") {
          "  sampling: {period: 0.02}\n"
          "time: {end: 1, step: 0.1}\n" +
          rest;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

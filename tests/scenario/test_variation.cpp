@@ -22,12 +22,7 @@ VariationSpec read(const std::string& spec) {
 }
 
 std::string fault(const std::string& spec) {
-  try {
-    static_cast<void>(read(spec));
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return message_of<InputError>([&] { static_cast<void>(read(spec)); });
 }
 
 }  // namespace

@@ -4,11 +4,9 @@
 // Loops in lanes against the collocation integrator run one by one. Their greatest values, events
 // and interrupts are in tests/sweep.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>

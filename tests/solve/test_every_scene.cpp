@@ -4,8 +4,6 @@
 // What holds for every scene, with every integrator: a table of scenes, and one test a property.
 #include <atomic>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "catch.hpp"
 #include "solve/scene_table.hpp"

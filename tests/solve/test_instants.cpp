@@ -3,8 +3,6 @@
 
 // Rows, samples and stops at times that are nearly equal, or equal up to rounding.
 #include <cmath>
-#include <limits>
-#include <string>
 #include <vector>
 
 #include "catch.hpp"
@@ -64,8 +62,7 @@ TEST_CASE("scenes of any length are sampled in the same way") {
   scene.ball.velocity = {1e-3 / unit, 0};
   scene.controller->kv = scene.controller->kp = {};  // without gains it rolls on
   // A delay of a period and a half: the measurement lies between samples.
-  const Run run = run_in_memory(scene, Method::radau, {1e-8, 1e-10});
-  REQUIRE(run.outcome.ending == solve::Ending::done);
+  const Run run = whole_run(scene, Method::radau, {1e-8, 1e-10});
   REQUIRE(run.samples.size() == 11);
   for (std::size_t i = 1; i < run.samples.size(); ++i) {
     const double seen = (static_cast<double>(i) * 0.1 - 0.03) * unit;
@@ -116,6 +113,23 @@ TEST_CASE("an output grid has no time twice, for any number of rows") {
       CHECK(std::abs(static_cast<double>(rows) - count) <= 2);
     }
   }
+}
+
+TEST_CASE("output times are multiples of the step, and the end time") {
+  const auto times = [&](double end, double step) {
+    const solve::OutputGrid grid(OutputTimes{end, step});
+    std::vector<double> list;
+    for (std::size_t i = 0; i < grid.size(); ++i) list.push_back(grid[i]);
+    return list;
+  };
+  CHECK(times(1, 0.25) == std::vector<double>{0, 0.25, 0.5, 0.75, 1});
+  CHECK(times(1, 0.4) == std::vector<double>{0, 0.4, 0.8, 1});
+  CHECK(times(1, 5) == std::vector<double>{0, 1});
+  CHECK(times(10, 0.01).size() == 1001);  // not 1,002 because of the rounding of 0.01
+  CHECK(times(10, 0.01)[700] == 700 * 0.01);
+  CHECK(times(21, 0.1).size() == 211);
+  CHECK(times(0.3, 0.1).size() == 4);  // 0.3 / 0.1 is 2.9999999999999996
+  CHECK(times(1e-9, 1e-10).size() == 11);
 }
 
 }  // namespace bbsim_test::test_instants

@@ -122,8 +122,7 @@ TEST_CASE("a run whose integral waits at a limit is the limit of the smoothed la
     if (!one.waits) continue;
     CAPTURE(one.what, int(method));
     const Scenario scene = load(one);
-    const Run run = run_in_memory(scene, method, {1e-10, 1e-12});
-    REQUIRE(run.outcome.ending == solve::Ending::done);
+    const Run run = whole_run(scene, method, {1e-10, 1e-12});
     CHECK(run.outcome.statistics.steps < 20000);
     const model::Model model = model::assemble(scene, false);
     const auto wide = smoothed(model, scene.time, 2e-3), narrow = smoothed(model, scene.time, 1e-3);
@@ -159,8 +158,7 @@ time: {end: 1, step: 0.0005}
   std::string with = text;
   with.insert(with.find("time:"), sampling);
   const Scenario scene = test::parse(with);
-  const Run run = run_in_memory(scene, Method::radau, {1e-9, 1e-11});
-  REQUIRE(run.outcome.ending == solve::Ending::done);
+  const Run run = whole_run(scene, Method::radau, {1e-9, 1e-11});
   double most = 0, steepest = 0;
   for (std::size_t row = 1; row < run.samples.size(); ++row) {
     const double dt = run.samples[row].t - run.samples[row - 1].t;
@@ -199,8 +197,7 @@ controller:
   reference: {point: [0.02, 0.03]}
 time: {end: 0.4, step: 0.0001}
 )");
-  const Run run = run_in_memory(scene, Method::radau, {1e-10, 1e-12});
-  REQUIRE(run.outcome.ending == solve::Ending::done);
+  const Run run = whole_run(scene, Method::radau, {1e-10, 1e-12});
   const double from_rate = 0.2 * 0.2 / 2, stall = 0.2 * 0.019 / 2;
   const auto overruns = [&](const LoopRow& at) {
     return std::abs(at.rate) * from_rate - stall > 0.0022;

@@ -3,7 +3,6 @@
 
 // The collocation integrator: against quad-precision solutions, and at its limits.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <string>

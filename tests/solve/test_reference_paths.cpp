@@ -3,7 +3,6 @@
 
 // Closed loops along reference paths; test_every_scene.cpp has each kind of path.
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "catch.hpp"

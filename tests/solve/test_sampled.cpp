@@ -36,10 +36,7 @@ Scenario rig() {
 }
 
 Run run_of(const Scenario& scene, Method method = Method::automatic) {
-  Run run = run_in_memory(scene, method, {1e-9, 1e-11});
-  REQUIRE(run.outcome.ending == solve::Ending::done);
-  REQUIRE(run.samples.size() == solve::OutputGrid(scene.time).size());
-  return run;
+  return whole_run(scene, method, {1e-9, 1e-11});
 }
 
 bool same(const model::Sample& a, const model::Sample& b) {
@@ -50,13 +47,6 @@ bool same(const model::Sample& a, const model::Sample& b) {
 }
 
 }  // namespace
-
-TEST_CASE("a noisy run differs with another seed") {
-  Scenario other = rig();
-  other.controller->sensor->seed = 2;
-  const Run first = run_of(rig()), different = run_of(other);
-  CHECK_FALSE(std::ranges::equal(first.samples, different.samples, same));
-}
 
 TEST_CASE("the command is held between samples and arrives its delay after them") {
   Scenario scene = rig();

@@ -36,10 +36,7 @@ Scenario step_scene(double command) {
 }
 
 Run run_of(const Scenario& scene, Method method) {
-  Run run = run_in_memory(scene, method, tight, false);
-  REQUIRE(run.outcome.ending == solve::Ending::done);
-  REQUIRE(run.samples.size() == solve::OutputGrid(scene.time).size());
-  return run;
+  return whole_run(scene, method, tight, false);
 }
 
 // q'' = w^2 (u - q) - 2 zeta w q' from (q, v), after the given time.

@@ -3,7 +3,6 @@
 
 // From sliding to rolling and back, against closed forms: docs/explanation/losses-and-torques.md.
 #include <cmath>
-#include <numbers>
 
 #include "catch.hpp"
 #include "model/ball/dynamics.hpp"

@@ -33,9 +33,7 @@ Scenario onlooker() {
 }
 
 Run run_of(const Scenario& scene) {
-  Run run = run_in_memory(scene, Method::automatic, {1e-10, 1e-12});
-  REQUIRE(run.outcome.ending == solve::Ending::done);
-  return run;
+  return whole_run(scene, Method::automatic, {1e-10, 1e-12});
 }
 
 }  // namespace

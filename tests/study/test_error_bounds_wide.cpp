@@ -7,10 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <numbers>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "catch.hpp"

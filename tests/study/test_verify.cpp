@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "catch.hpp"
 #include "scenario/reader.hpp"

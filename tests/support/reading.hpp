@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "scenario/reader.hpp"
+#include "support/folder.hpp"
 
 namespace bbsim::test {
 
@@ -18,12 +19,7 @@ inline Scenario parse(const std::string& text, const std::vector<std::string>& o
 
 // All problems of the text, one per line; empty if there are none.
 inline std::string errors(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    static_cast<void>(parse(text, overrides));
-    return "";
-  } catch (const InputError& e) {
-    return e.what();
-  }
+  return message_of<InputError>([&] { static_cast<void>(parse(text, overrides)); });
 }
 
 // The shortest open-loop scenario, on lines 1 to 3.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "catch.hpp"
 #include "file/table_writer.hpp"
 #include "model/model.hpp"
 #include "scenario/reader.hpp"
@@ -30,6 +31,15 @@ inline Run run_in_memory(const bbsim::Scenario& scene, bbsim::Method method,
   for (std::size_t i = 0; i < trajectory.rows(); ++i) {
     run.samples.push_back(model.sample(grid[i], trajectory.row(i)));
   }
+  return run;
+}
+
+// A run that must reach its end, with all rows.
+inline Run whole_run(const bbsim::Scenario& scene, bbsim::Method method,
+                     bbsim::solve::Tolerances tolerances, bool gamma = true) {
+  Run run = run_in_memory(scene, method, tolerances, gamma);
+  REQUIRE(run.outcome.ending == bbsim::solve::Ending::done);
+  REQUIRE(run.samples.size() == bbsim::solve::OutputGrid(scene.time).size());
   return run;
 }
 

@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The engines of a sweep, compared with single runs.
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,6 +20,7 @@
 #include "sweep/runners.hpp"
 #include "sweep/sweep.hpp"
 #include "sweep/task.hpp"
+#include "yaml-cpp/yaml.h"
 
 namespace bbsim_test::test_engines {
 
@@ -170,50 +168,93 @@ TEST_CASE("shards are whole groups of nearly equal number, and make up the sweep
 
 namespace {
 
-// Within both tolerances of 1e-6, over a loop that amplifies it little.
-void check_lanes(const Setup& setup) {
-  const Engine engine = choose_engine(setup.task);
-  REQUIRE(engine.name == "lanes");
-  const CaseResults lanes = run_all(*engine.runner(), setup.task);
-  CHECK(largest_difference(lanes, run_all(*single_runner(setup.task), setup.task)) < 1e-4);
-  for (const CaseStatus& status : lanes.status) {
-    CHECK(status.word == "done");
-    CHECK(status.reason.empty());
-  }
-}
-
 const std::vector<std::string> coarse{"solver.rtol=1e-6", "solver.atol=1e-8"};
 
 }  // namespace
 
-TEST_CASE("loops of all servos, references and tolerances run in lanes") {
-  // The scene is planar if the ball starts on the x axis; planar cases must not decide for others.
-  for (const char* spec : {"linear:0:5 cm:11", "linear:5 cm:0:11", "list:0,0,0,0,0,0,0,0,1 cm"}) {
-    CAPTURE(spec);
-    check_lanes(Setup("configs/beam.yaml", {{"ball.position.1", spec}}, coarse, loop_measures));
+namespace {
+
+using Words = std::map<std::string, std::string>;
+using Reasons = std::map<std::size_t, std::string>;
+
+// All choices of one value for each word.
+std::vector<Words> choices(const YAML::Node& each) {
+  std::vector<Words> all{{}};
+  for (const auto& word : each) {
+    std::vector<Words> longer;
+    for (Words words : all) {
+      for (const YAML::Node& value : word.second) {
+        words[word.first.as<std::string>()] = value.as<std::string>();
+        longer.push_back(words);
+      }
+    }
+    all = longer;
   }
-  check_lanes(
-      Setup("configs/lissajous.yaml",
-            {{"controller.pd.kv.0.0", "linear:0.5:0.7:3"}, {"ball.position.1", "linear:0:2 cm:3"}},
-            coarse, loop_measures));
-  for (const char* rtol : {"1e-4", "1e-8", "1e-12"}) {
-    CAPTURE(rtol);
-    check_lanes(Setup("tests/data/scenarios/stiff-servo.yaml",
-                      {{"gimbal.servo.natural_frequency", "list:10,2000,100,500"},
-                       {"ball.position.0", "linear:0.01:0.05:4"}},
-                      {std::string("solver.rtol=") + rtol}, loop_measures));
+  return all;
+}
+
+std::string filled(const YAML::Node& text, const Words& words) {
+  auto made = text.as<std::string>();
+  for (const auto& [word, value] : words) {
+    const std::size_t at = made.find(word);
+    if (at != std::string::npos) made.replace(at, word.size(), value);
+  }
+  return made;
+}
+
+// The sweeps of lanes.yaml that `engine` computes, as single runs do within `bound`.
+void check_sweeps(const std::string& engine, double bound) {
+  const YAML::Node page = YAML::LoadFile(BBSIM_SOURCE_DIR "/tests/sweep/lanes.yaml");
+  for (const YAML::Node& row : page[engine]) {
+    for (const Words& words : choices(row["each"])) {
+      std::vector<Variation> vary;
+      for (const auto& one : row["vary"]) {
+        vary.push_back({one.first.as<std::string>(), filled(one.second, words)});
+      }
+      std::vector<std::string> set;
+      for (const YAML::Node& one : row["set"]) set.push_back(filled(one, words));
+      CAPTURE(row["what"].as<std::string>(), set);
+      const YAML::Node names = row["measures"] ? row["measures"] : page["measures"][engine];
+      const Setup setup(filled(row["scene"], words) + ".yaml", vary, set,
+                        names.as<std::vector<std::string>>(), row["samples"].as<double>(0));
+      const Engine chosen = choose_engine(setup.task);
+      CHECK(chosen.name == engine);
+      if (engine == "single runs") continue;
+      const CaseResults lanes = run_all(*chosen.runner(), setup.task);
+      const CaseResults alone = run_all(*single_runner(setup.task), setup.task);
+      CHECK(lanes.values == alone.values);
+      check_endings(lanes, alone);
+      for (const auto& [at, reason] : row["reasons"].as<Reasons>(Reasons{})) {
+        CHECK(lanes.status[at].reason == reason);
+      }
+      if (!row["numbers"].as<bool>(true)) continue;
+      CHECK(largest_difference(lanes, alone) < row["bound"].as<double>(bound));
+      for (const CaseStatus& status : lanes.status) {
+        if (engine == "lanes") CHECK(status.word == "done");
+      }
+    }
   }
 }
 
-TEST_CASE("splines and sweeps of planar cases only use single runs") {
-  const auto [scene, key, values] = GENERATE(table<std::string, std::string, std::string>({
-      {"configs/waypoints.yaml", "ball.radius", "linear:0.01:0.02:9"},
-      {"configs/beam.yaml", "ball.position.0", "linear:0:5 cm:11"},
-      {"configs/beam.yaml", "ball.position.1,ball.velocity.1", "list:0,0,0"},
-  }));
-  CAPTURE(scene, key);
-  const Setup setup(scene, {{key, values}}, coarse, loop_measures);
-  CHECK(choose_engine(setup.task).name == "single runs");
+}  // namespace
+
+TEST_CASE("loops of all servos, references and tolerances run in lanes") {
+  // Within both tolerances of 1e-6, over a loop that amplifies it little.
+  check_sweeps("lanes", 1e-4);
+}
+
+TEST_CASE("rigs in lanes are those of single runs") {
+  // Substitution leaves a thousandth of the tolerance of 1e-10, and a loop that holds the ball
+  // damps its errors: 1e-10 after thousands of pieces.
+  check_sweeps("rig lanes", 1e-10);
+}
+
+TEST_CASE("prescribed motions of every kind in lanes agree with single runs") {
+  check_sweeps("open lanes", 2e-11);
+}
+
+TEST_CASE("sweeps that lanes do not support use single runs") {
+  check_sweeps("single runs", 0);
 }
 
 TEST_CASE("loops that diverge in lanes end as single runs do, without affecting others") {
@@ -265,27 +306,19 @@ TEST_CASE("loops that diverge in lanes end as single runs do, without affecting 
   }
 }
 
-TEST_CASE("every engine computes tied keys") {
-  SECTION("lanes") {
-    check_lanes(Setup("configs/fig2b.yaml",
-                      {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "linear:0.8:1.2:9"},
-                       {"ball.position.0,-0.5*ball.position.1", "list:1 cm,4 cm"}},
-                      coarse, loop_measures));
-  }
-  SECTION("single runs, with inserted numbers and with scenarios read again") {
-    for (const char* set : {"ball.spin=0", "events.lift_off=note"}) {
-      const Setup tied("configs/fig2b.yaml",
-                       {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "list:0.8,1.2"}}, {set},
-                       loop_measures);
-      const CaseResults results = run_all(*single_runner(tied.task), tied.task);
-      for (std::size_t i = 0; i < 2; ++i) {
-        const std::string kv = i == 0 ? "0.8" : "1.2";
-        const Setup one("configs/fig2b.yaml", {{"controller.pd.kv.1.1", "list:-" + kv}},
-                        {set, "controller.pd.kv.0.0=" + kv}, loop_measures);
-        const CaseResults alone = run_all(*single_runner(one.task), one.task);
-        for (std::size_t n = 0; n < alone.numbers.size(); ++n) {
-          CHECK(results.numbers[i * alone.numbers.size() + n] == alone.numbers[n]);
-        }
+TEST_CASE("tied keys have the bits of keys that are set, with inserted numbers and read again") {
+  for (const char* set : {"ball.spin=0", "events.lift_off=note"}) {
+    const Setup tied("configs/fig2b.yaml",
+                     {{"controller.pd.kv.0.0,-controller.pd.kv.1.1", "list:0.8,1.2"}}, {set},
+                     loop_measures);
+    const CaseResults results = run_all(*single_runner(tied.task), tied.task);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::string kv = i == 0 ? "0.8" : "1.2";
+      const Setup one("configs/fig2b.yaml", {{"controller.pd.kv.1.1", "list:-" + kv}},
+                      {set, "controller.pd.kv.0.0=" + kv}, loop_measures);
+      const CaseResults alone = run_all(*single_runner(one.task), one.task);
+      for (std::size_t n = 0; n < alone.numbers.size(); ++n) {
+        CHECK(results.numbers[i * alone.numbers.size() + n] == alone.numbers[n]);
       }
     }
   }
@@ -375,17 +408,23 @@ TEST_CASE("a case that lacks a measure has a reason, and another may have it") {
   }
   const Setup ends("configs/fig2a.yaml", {{"time.end", "list:1,12"}}, {}, {"end_x"});
   CHECK(sweep_measures({"max_x from 11 s"}, ends.family, ends.plan).size() == 1);
-  // Rigs in lanes, of which only the first lacks the measure.
-  const Setup rigs(
-      "configs/rig.yaml",
-      {{"plate", "list:{size: [0.3, 0.2]},{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]}"},
-       {"ball.position.0", "linear:1 cm:4 cm:8"}},
-      {"time.end=0.5", "output.columns=[t, x]"}, {"end_x", "end_motor_torque_phi"});
+  // Rigs in lanes, of which only the first or the last lack the measure.
+  const bool last = GENERATE(false, true);
+  const std::string known = "{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]}";
+  const std::string unknown = "{size: [0.3, 0.2]}";
+  const Setup rigs("configs/rig.yaml",
+                   {{"plate", "list:" + (last ? known + "," + unknown : unknown + "," + known)},
+                    {"ball.position.0", "linear:1 cm:4 cm:8"}},
+                   {"time.end=0.5", "output.columns=[t, x]"}, {"end_x", "end_motor_torque_phi"});
   const Engine engine = choose_engine(rigs.task);
   REQUIRE(engine.name == "rig lanes");
   const CaseResults of_rigs = run_all(*engine.runner(), rigs.task);
   for (std::size_t i = 0; i < 16; ++i) {
-    CHECK(std::isfinite(of_rigs.numbers[3 * i + 2]) == (i >= 8));
+    const bool lacks = (i >= 8) == last;
+    CHECK(std::isfinite(of_rigs.numbers[3 * i + 1]));
+    CHECK(std::isfinite(of_rigs.numbers[3 * i + 2]) == !lacks);
+    CHECK(of_rigs.status[i].reason ==
+          (lacks ? "end_motor_torque_phi is not a number: plate.inertia is not known" : ""));
   }
 }
 
@@ -412,223 +451,7 @@ const std::vector<Variation> gains_and_seeds{{"controller.gravity_compensation.k
                                              {"controller.gravity_compensation.kv", "uniform:5:10"},
                                              {"controller.sensor.seed", "list:1,2,3"}};
 
-// Substitution leaves a thousandth of the tolerance of 1e-10, and a loop that holds the ball damps
-// its errors: 1e-10 after thousands of pieces.
-void check_rig_lanes(const Setup& setup, double bound = 1e-10) {
-  const Engine engine = choose_engine(setup.task);
-  REQUIRE(engine.name == "rig lanes");
-  const std::size_t cases = setup.plan.cases();
-  const CaseResults lanes = run_all(*engine.runner(), setup.task);
-  const CaseResults alone = run_all(*single_runner(setup.task), setup.task);
-  CHECK(largest_difference(lanes, alone) < bound);
-  for (std::size_t i = 0; i < cases; ++i) {
-    CHECK(lanes.status[i].word == alone.status[i].word);
-    CHECK(lanes.status[i].reason == alone.status[i].reason);
-  }
-}
-
 }  // namespace
-
-TEST_CASE("rigs in lanes are those of single runs") {
-  SECTION("with noise, events and all limits of configs/rig.yaml") {
-    check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=10"}, loop_measures, 7));
-  }
-  SECTION("with unequal periods, drawn anew in each lane, and backlash") {
-    check_rig_lanes(
-        Setup("configs/rig.yaml", gains_and_seeds,
-              {"time.end=5", "controller.sampling.jitter=1 ms", "gimbal.servo.backlash=0.3 deg"},
-              loop_measures, 7));
-  }
-  SECTION("rigs that switch, each at its own times") {
-    const std::string servo = GENERATE(
-        "{natural_frequency: 5 Hz, damping: 0.8, rate_limit: 20 deg/s, angle_limit: 4 deg}",
-        "{natural_frequency: 5 Hz, damping: 0.3, acceleration_limit: 20}",
-        "{natural_frequency: 5 Hz, damping: 0.8, backlash: 0.5 deg, dead_band: 0.2 deg}",
-        "{time_constant: 40 ms, rate_limit: 30 deg/s}",
-        "{stepper: {gear: 2}, rate_limit: 60 deg/s, acceleration_limit: 15}",
-        "{stepper: {steps: 2000, torque: 0.2, inertia: 1e-2, corner_speed: 0.3}, rate_limit: 60 "
-        "deg/s, acceleration_limit: 15}");
-    CAPTURE(servo);
-    // Off its circle, so that limits are reached.
-    check_rig_lanes(Setup("configs/rig.yaml",
-                          {{"controller.gravity_compensation.kp", "uniform:6:14"},
-                           {"ball.position.1", "uniform:-6 cm:6 cm"}},
-                          {"time.end=5", "gimbal.servo=" + servo}, loop_measures, 20));
-  }
-  SECTION("with different servos and balls") {
-    check_rig_lanes(Setup("configs/rig.yaml",
-                          {{"gimbal.servo.natural_frequency", "uniform:25:60"},
-                           {"gimbal.servo.damping", "uniform:0.5:1.2"},
-                           {"ball.radius", "uniform:1 cm:3 cm"},
-                           {"gravity", "uniform:9.7:9.9"}},
-                          {"time.end=5"}, loop_measures, 20));
-  }
-  SECTION("servos too fast for one piece per period") {
-    check_rig_lanes(Setup("configs/rig.yaml",
-                          {{"controller.gravity_compensation.kp", "uniform:6:14"}},
-                          {"time.end=2", "gimbal.servo.natural_frequency=400 Hz",
-                           "gimbal.servo.rate_limit=100 rad/s"},
-                          loop_measures, 12));
-  }
-  SECTION("servos that move only between two nodes of a piece") {
-    const std::string damping = GENERATE("0.7", "1");
-    check_rig_lanes(
-        Setup("configs/rig.yaml", {{"gimbal.servo.natural_frequency", "linear:100:3000:12"}},
-              {"time.end=0.9", "events={}", "gravity=9.81",
-               "gimbal.servo={natural_frequency: 1, damping: " + damping + ", rate_limit: 1}",
-               "controller={pd: {kv: 0, kp: [[1, 0], [0, -1]]}, drives: angle, "
-               "reference: {point: [0.1, 0]}, sampling: {period: 0.5}}"},
-              loop_measures));
-  }
-  SECTION("endless switching at one instant, which single runs report too") {
-    const Setup setup("configs/rig.yaml", {{"gimbal.start.phi", "linear:0.0072:0.008:8"}},
-                      {"time.end=0.05", "events={}",
-                       "gimbal.servo={natural_frequency: 179504, damping: 0, "
-                       "acceleration_limit: 585}",
-                       "controller={pd: {kv: [[0.3, 0], [0, -0.3]], kp: [[0.7, 0], [0, -0.7]]}, "
-                       "drives: angle, reference: {point: [0.01, 0]}, sampling: {period: 0.01}}"},
-                      {"max_tilt"});
-    const Engine engine = choose_engine(setup.task);
-    REQUIRE(engine.name == "rig lanes");
-    const CaseResults lanes = run_all(*engine.runner(), setup.task);
-    const CaseResults alone = run_all(*single_runner(setup.task), setup.task);
-    for (std::size_t i = 0; i < 8; ++i) {
-      CHECK(lanes.status[i].word == alone.status[i].word);
-      CHECK(lanes.status[i].reason == alone.status[i].reason);
-    }
-  }
-  SECTION("any law, with integrals that wait at a limit and servo feedback") {
-    const std::string law = GENERATE(
-        "pid: {kp: [[0.7, 0], [0, -0.7]], kv: [[0.6, 0], [0, -0.6]], ki: [[0.35, 0], [0, -0.35]]}",
-        "lqr: {position: 60, velocity: 1, angle: 1, rate: 0.1, command: 20}",
-        "gravity_compensation: {kp: 10, kv: 8}");
-    // One limit is reached; the other allows sines above 0.7, which lanes leave to the C library.
-    const std::string limit = GENERATE("3 deg", "80 deg");
-    const std::string sampling = GENERATE("{period: 20 ms}", "{period: 20 ms, delay: 30 ms}");
-    CAPTURE(law, limit, sampling);
-    check_rig_lanes(Setup("configs/rig.yaml", {{"controller.sensor.seed", "linear:1:12:12"}},
-                          {"time.end=4", "controller={" + law + ", drives: angle, limit: " + limit +
-                                             ", reference: {point: [3 cm, 1 cm]}, sampling: " +
-                                             sampling + ", sensor: {noise: 0.2 mm}}"},
-                          loop_measures));
-  }
-  SECTION("missed balls, and cameras that see them late") {
-    const std::string sensor = GENERATE(
-        "{noise: 0.2 mm, dropout: 0.2, seed: 1}",
-        "{noise: 0.2 mm, period: 33 ms, phase: 5 ms, delay: 21 ms, seed: 1}",
-        "{resolution: 1 mm, area: [9 cm, 9 cm], delay: 35 ms}",
-        "{noise: 0.2 mm, dropout: 0.1, dead_zones: [[1 cm, -9 cm, 2 cm, 9 cm]], on_miss: "
-        "last}",
-        "{contact_force: 0.32, area: [9 cm, 9 cm], on_miss: edge}",
-        "{period: 33 ms, stuck: {probability: 0.03, duration: 70 ms}, burst: {probability: "
-        "0.05, duration: 90 ms}}");
-    CAPTURE(sensor);
-    check_rig_lanes(Setup("configs/rig.yaml",
-                          {{"controller.gravity_compensation.kp", "uniform:6:14"}},
-                          {"time.end=5", "controller.sensor=" + sensor}, loop_measures, 14));
-  }
-  SECTION("a reference that jumps at samples and between them") {
-    const std::string reference =
-        GENERATE("{step: {from: [-3 cm, 0], to: [3 cm, 1 cm], at: 0.9}}",
-                 "{square: {amplitude: [3 cm, 2 cm], period: 1.7, phase: [0, 90 deg]}}",
-                 "{staircase: {points: [[0, 0], [3 cm, 0], [3 cm, 2 cm]], times: [0, 1.003, 2]}}");
-    CAPTURE(reference);
-    check_rig_lanes(Setup("configs/rig.yaml",
-                          {{"controller.gravity_compensation.kp", "uniform:6:14"}},
-                          {"time.end=4", "controller.reference=" + reference}, loop_measures, 14));
-  }
-  SECTION("behind push rods, which the controller inverts or takes for a ratio") {
-    const std::string law = GENERATE("gravity_compensation: {kp: 5, kv: 5}",
-                                     "lqr: {position: 60, velocity: 1, angle: 1, rate: 0.1, "
-                                     "command: 20}");
-    const std::string assumes = GENERATE("ratio", "exact");
-    CAPTURE(law, assumes);
-    check_rig_lanes(Setup(
-        "configs/pushrod.yaml",
-        {{"gimbal.linkage.horn", "uniform:2 cm:2.6 cm"}, {"controller.sensor.seed", "list:1,2,3"}},
-        {"time.end=4", "controller={" + law + ", drives: angle, assumes: " + assumes +
-                           ", limit: 15 deg, reference: {circle: "
-                           "{radius: 5 cm, rate: -0.3}}, sampling: {period: "
-                           "20 ms, delay: 10 ms, jitter: 1 ms}, sensor: "
-                           "{noise: 0.3 mm}}"},
-        loop_measures, 5));
-  }
-  SECTION("on three legs, with hollow balls") {
-    const std::string assumes = GENERATE("ratio", "exact");
-    check_rig_lanes(Setup("configs/three-servos.yaml",
-                          {{"controller.gravity_compensation.kp", "uniform:4:8"},
-                           {"gimbal.three_servos.rod", "uniform:9.8 cm:10.2 cm"}},
-                          {"time.end=4", "controller.assumes=" + assumes}, loop_measures, 14));
-  }
-  SECTION("any ball on a plate above the axes, turned about its normal") {
-    check_rig_lanes(Setup("configs/rig.yaml",
-                          {{"ball.inertia_factor", "uniform:0.4:0.667"},
-                           {"gimbal.mounting.height", "uniform:0:4 cm"}},
-                          {"time.end=4", "gimbal.mounting={yaw: 20 deg}"}, loop_measures, 14));
-  }
-  SECTION("measures of forces, crossings, windows and given times") {
-    const std::string scene = GENERATE("rig", "three-servos");
-    check_rig_lanes(
-        Setup("configs/" + scene + ".yaml", {{"ball.position.0", "linear:-3 cm:-2 cm:11"}},
-              {"time.end=4", "controller.reference={step: {from: [0, 0], to: [3 cm, 1 cm], at: 1}}",
-               "plate.inertia=[1e-3, 1e-3, 2e-3]"},
-              {"max_normal_force", "max_motor_power", "min_vx", "rms_phi_command", "x.RiseTime",
-               "x.Overshoot", "find y when x=1 cm", "max_tilt from 2 s", "rms_x to 3 s"}));
-  }
-  SECTION("a controller's command at the end") {
-    check_rig_lanes(Setup("configs/rig.yaml", gains_and_seeds, {"time.end=2.005"},
-                          {"end_phi_command", "end_x_measured", "end_vx", "end_phi", "end_x"}, 5));
-  }
-}
-
-TEST_CASE("a rig that does not fit the others of its group runs singly") {
-  SECTION("a ball that falls off the plate") {
-    const Setup setup("configs/rig.yaml", {{"ball.velocity.0", "list:0,0,0.01,2,0,0,0,-3,0,0.02"}},
-                      {"time.end=3"}, loop_measures);
-    check_rig_lanes(setup);
-    const CaseResults lanes = run_all(*choose_engine(setup.task).runner(), setup.task);
-    CHECK(lanes.status[3].reason == "edge");
-    CHECK(lanes.status[7].reason == "edge");
-  }
-  SECTION("servos of another kind") {
-    const Setup setup("configs/rig.yaml",
-                      {{"gimbal.servo",
-                        "list:{natural_frequency: 5 Hz, damping: 0.8},"
-                        "{natural_frequency: 5 Hz, damping: 0.9},"
-                        "{natural_frequency: 5 Hz, damping: 0.9, backlash: 1 deg}"},
-                       {"ball.position.0", "list:5 cm,5.1 cm,5.2 cm"}},
-                      {"time.end=3"}, loop_measures);
-    check_rig_lanes(setup);
-  }
-}
-
-TEST_CASE("rigs in lanes may sample and act at different times") {
-  const auto [key, values] = GENERATE(table<std::string, std::string>(
-      {{"controller.sampling.delay", "list:10 ms,10 ms,5 ms,0,30 ms,7 ms,41 ms,20 ms,10 ms"},
-       {"controller.sampling.period", "linear:5 ms:40 ms:9"},
-       {"controller.sensor.delay", "linear:0:50 ms:9"},
-       {"controller.sensor.period",
-        "list:20 ms,33 ms,10 ms,21 ms,30 ms,25 ms,40 ms,20 ms,15 ms"}}));
-  CAPTURE(key);
-  check_rig_lanes(Setup("configs/rig.yaml", {{key, values}}, {"time.end=3"}, loop_measures));
-}
-
-TEST_CASE("rigs in lanes have no number for measures that their scene lacks") {
-  const Setup setup(
-      "configs/rig.yaml",
-      {{"plate", "list:{size: [0.3, 0.2], inertia: [1e-3, 1e-3, 2e-3]},{size: [0.3, 0.2]}"},
-       {"ball.position.0", "linear:1 cm:4 cm:8"}},
-      {"time.end=0.5", "output.columns=[t, x]"}, {"end_x", "end_motor_torque_phi"});
-  const Engine engine = choose_engine(setup.task);
-  REQUIRE(engine.name == "rig lanes");
-  const CaseResults results = run_all(*engine.runner(), setup.task);
-  for (std::size_t i = 0; i < 16; ++i) {
-    CHECK(std::isfinite(results.numbers[3 * i + 1]));
-    CHECK(std::isfinite(results.numbers[3 * i + 2]) == (i < 8));
-    CHECK(results.status[i].reason ==
-          (i < 8 ? "" : "end_motor_torque_phi is not a number: plate.inertia is not known"));
-  }
-}
 
 TEST_CASE("a command that arrives at the end, up to rounding, is in the last row") {
   // 14 periods of 0.05 s round to more than 0.7 s, and so does a sample plus its delay.
@@ -676,21 +499,6 @@ TEST_CASE("rigs in lanes do not depend on the distribution of their groups") {
     }
     if (first == 0) break;
   }
-}
-
-TEST_CASE("few rigs, ones whose reference varies and ones watched at samples are run singly") {
-  CHECK(choose_engine(Setup("configs/rig.yaml", {{"controller.sensor.seed", "list:1,2,3,4,5,6,7"}},
-                            {"time.end=1"}, loop_measures)
-                          .task)
-            .name == "single runs");
-  CHECK(choose_engine(Setup("configs/rig.yaml",
-                            {{"controller.reference.circle.radius", "linear:4 cm:5 cm:8"}},
-                            {"time.end=1"}, loop_measures)
-                          .task)
-            .name == "single runs");
-  CHECK(choose_engine(
-            Setup("configs/rig.yaml", gains_and_seeds, {"time.end=1"}, {"max_x_measured"}, 3).task)
-            .name == "single runs");
 }
 
 TEST_CASE("a sweep to the limits of doubles has no finished case without a finite distance") {

@@ -3,10 +3,7 @@
 
 // Extremes of a sweep's cases between their rows, with each engine.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
-#include <random>
 #include <string>
 #include <vector>
 

@@ -26,12 +26,7 @@ std::string repeated(const std::string& text, int count) {
 }
 
 std::string file_error(const std::string& file) {
-  try {
-    static_cast<void>(read_scenario(file));
-    return "";
-  } catch (const InputError& e) {
-    return e.what();
-  }
+  return message_of<InputError>([&] { static_cast<void>(read_scenario(file)); });
 }
 
 }  // namespace
