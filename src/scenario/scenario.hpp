@@ -61,7 +61,7 @@ struct Ramp {
 };
 
 // C2 interpolant through (time, value): at least four rows with strictly increasing times.
-// sweep/clock_shift.cpp moves its clock and drops rows far outside the new run.
+// sweep/window.cpp moves its clock and drops rows far outside the new run.
 struct Table {
   std::string file;
   std::vector<double> times;   // s

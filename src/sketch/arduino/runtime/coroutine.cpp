@@ -181,13 +181,16 @@ long long now() {
 using namespace bbsim_board;
 
 // Takes the place of the C library's function, which would call the destructors of the sketch's
-// global variables as its library is closed, outside all guards. atexit() comes here, too.
-extern "C" __attribute__((visibility("hidden"))) int __cxa_atexit(void (*function)(void*),
-                                                                  void* argument, void*) {
-  auto* const one = static_cast<AtEnd*>(malloc(sizeof(AtEnd)));
-  if (one == nullptr) return -1;
-  *one = {function, argument, at_end};
-  at_end = one;
+// global variables as its library is closed, outside all guards. atexit() comes here, too. A name
+// of its own keeps clang from comparing its visibility with that in <cxxabi.h>.
+extern "C" __attribute__((visibility("hidden"))) int bbsim_atexit(void (*function)(void*),
+                                                                  void* argument,
+                                                                  void*) __asm__("__cxa_atexit");
+int bbsim_atexit(void (*function)(void*), void* argument, void*) {
+  auto* const last = static_cast<AtEnd*>(malloc(sizeof(AtEnd)));
+  if (last == nullptr) return -1;
+  *last = {function, argument, at_end};
+  at_end = last;
   return 0;
 }
 
