@@ -42,17 +42,17 @@ void collect(const Declared& value, const std::string& path, std::vector<KeyAt>&
 }
 
 const std::vector<KeyAt>& all_keys() {
-  static const std::vector<KeyAt> keys = [] {
-    std::vector<KeyAt> all;
-    collect(declared_keys(), "", all);
-    return all;
-  }();
+  static std::vector<KeyAt> keys;
+  if (keys.empty()) collect(declared_keys(), "", keys);
   return keys;
 }
 
 const DeclaredKey* key_at(const std::string& path) {
-  const auto found = std::ranges::find(all_keys(), path, &KeyAt::path);
-  return found == all_keys().end() ? nullptr : found->key;
+  static std::map<std::string, const DeclaredKey*> keys;
+  if (keys.empty()) {
+    for (const auto& [its, key] : all_keys()) keys.emplace(its, key);
+  }
+  return keys.contains(path) ? keys.at(path) : nullptr;
 }
 
 std::string unit_cell(const Declared& value) {
