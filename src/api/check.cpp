@@ -93,7 +93,7 @@ void report_sampled_loop(Report& report, const Scenario& scenario, const model::
                      (cycle.samples > 1 ? " in these periods" : " a period") +
                      ", with a time constant of " + rounded(-period / std::log(size), 3) + " s");
   const Gimbal& gimbal = scenario.gimbal;
-  report.add("", std::string("without noise, dropouts, rounding, and limits and losses of servos") +
+  report.add("", std::string("without noise, dropouts, rounding, limits, and losses of servos") +
                      (gimbal.has_steppers() ? "; steppers' ramps are over at once" : ""));
   if (!model::why_not_linear(scenario).empty()) return;
   if (cycle.samples > 1) {

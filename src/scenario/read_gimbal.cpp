@@ -274,14 +274,6 @@ void read_servo_keys(yaml::Keys& keys, Servo& servo) {
       {.meaning = "full width of the gap between servo and plate", .range = "0, or ≥ 1e-6"});
 }
 
-}  // namespace
-
-yaml::Declared declared_servo(const Servo& servo) {
-  return yaml::MappingOf(read_servo_keys).declared(servo);
-}
-
-namespace {
-
 struct BothServos {
   Servo phi;
   std::optional<Servo> theta{};
@@ -525,6 +517,10 @@ void read_mounting(yaml::Keys& keys, Mounting& mounting) {
 }
 
 }  // namespace
+
+yaml::Declared declared_servo(const Servo& servo) {
+  return yaml::MappingOf(read_servo_keys).declared(servo);
+}
 
 void read_gimbal(yaml::Keys& keys, Gimbal& gimbal) {
   keys.optional("motion", yaml::MappingOf(read_motion), gimbal.motion);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <numbers>
 #include <type_traits>
 
@@ -117,7 +116,6 @@ struct Span {
 };
 
 Span span_of_tables(const Scenario& scenario) {
-  constexpr double unlimited = std::numeric_limits<double>::infinity();
   Span span{-unlimited, unlimited};
   const auto cover = [&span](const auto& table) {
     using Of = std::decay_t<decltype(table)>;

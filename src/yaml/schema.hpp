@@ -136,7 +136,7 @@ class Keys {
   template <class Rule, class T>
   bool optional(std::string_view key, const Rule& rule, std::optional<T>& into,
                 const About& about = {}) {
-    const std::optional<Value> value = find(key, rule, about);
+    const std::optional<Value> value = find(key, rule, about, into ? text_of(rule, *into) : "");
     return !value || rule.read(*value, into.emplace());
   }
 

@@ -24,7 +24,7 @@ struct ServoResponse {
 
 [[nodiscard]] ServoResponse response_of(const Servo& servo, const Controller& controller);
 
-// A servo with the numbers that follow from its keys.
+// A servo with the numbers that follow from its keys, which the model reads in their place.
 struct RigServo : Servo {
   double offset = 0;      // angle of the plane at the servo's zero, rad
   double step = 0;        // of a stepper: its microstep, rad; 0: not a stepper
