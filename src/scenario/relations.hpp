@@ -20,6 +20,7 @@ struct ServoKey {
   std::string_view path;
   bool (*holds)(const Servo&);
 };
+
 // A condition on one key. "gimbal.servo": it is given. "controller.drives=torque|voltage": it has
 // one of these values. "controller.drives=acceleration|": it has this value or is absent.
 // "plate.mass>0": it is positive. "gravity>0|": it is not 0.

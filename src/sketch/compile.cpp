@@ -275,7 +275,7 @@ Compiled compile(const Job& job) {
                              "-Wl,-T," + board + "/constructors.ld", "-o", folder.library()});
   for (const std::string& own : sources.own) words.insert(words.end(), {"-I", own});
   for (const std::string& own : sources.libraries.folders) words.insert(words.end(), {"-I", own});
-  // Of "-", compilers would look for quoted headers in the present folder first.
+  // With "-", compilers would look for quoted headers in the present folder first.
   words.insert(words.end(), {"-x", "c++", "/dev/stdin", board + "/runtime.cpp"});
   for (const std::string& source : sources.libraries.sources) words.push_back(source);
   const auto library = compiler.run(words, joined(sources.files));

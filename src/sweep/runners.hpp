@@ -62,7 +62,7 @@ struct GroupCase {
 // Whether lanes may hold the rows: all cases have them at the same times if they end at the same
 // time.
 [[nodiscard]] bool can_share_rows(const SweepTask& task);
-// Those rows, if the task has times of its own; `first` is as below.
+// Those rows, if the task has its own times; `first` is the scenario of the sweep's first case.
 [[nodiscard]] std::optional<TimedRows> timed_rows(const SweepTask& task, const Scenario& first);
 
 // Integrates a group of cases in lanes.

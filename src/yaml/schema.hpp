@@ -230,7 +230,7 @@ class MappingOf {
     return "a mapping with " + joined(known);
   }
 
-  // Defaults are the values of `defaults`. A key that is known but not declared has the kind
+  // The keys with the values of `defaults`. A key that is known but not declared has the kind
   // `none`.
   [[nodiscard]] Declared declared(const T& defaults = {}) const {
     Declared result(Declared::Kind::mapping);

@@ -181,8 +181,8 @@ long long now() {
 using namespace bbsim_board;
 
 // Takes the place of the C library's function, which would call the destructors of the sketch's
-// global variables as its library is closed, outside all guards. atexit() comes here, too. A name
-// of its own keeps clang from comparing its visibility with that in <cxxabi.h>.
+// global variables as its library is closed, outside all guards. atexit() comes here, too. clang
+// refuses a hidden function with the name that <cxxabi.h> declares, so the code has another.
 extern "C" __attribute__((visibility("hidden"))) int bbsim_atexit(void (*function)(void*),
                                                                   void* argument,
                                                                   void*) __asm__("__cxa_atexit");
