@@ -121,60 +121,98 @@ void reads_parts(file::Outputs& outputs, const Scenario& scenario) {
   }
 }
 
+// Names of rows and measures, checked before a controller starts and a file is opened.
+struct Wanted {
+  Columns requested;  // of output.columns
+  Columns columns;    // followed by others that a picture needs
+  std::vector<scenario::Measure> printed;
+  std::vector<scenario::Expectation> expectations;
+  std::vector<scenario::Measure> measures;  // `printed`, followed by those of expectations
+  std::vector<std::size_t> expected;        // the place of each expectation's measure
+
+  explicit Wanted(const RunRequest& request)
+      : requested(scenario::columns_named(request.scenario.output.columns)),
+        columns(request.pictured ? with_pictured(requested, request.scenario) : requested),
+        printed(scenario::measures_named(scenario::split_measures(request.measures),
+                                         request.scenario)) {
+    for (const std::string& text : request.expect) {
+      expectations.push_back(scenario::read_expectation("--expect", text, request.scenario));
+    }
+    measures = printed;
+    expected = scenario::add_expected(measures, expectations);
+  }
+};
+
 }  // namespace
 
-RunResult run(const RunRequest& request, Watch& watch) {
-  const Scenario& scenario = request.scenario;
-  const Columns requested = scenario::columns_named(scenario.output.columns);
-  const Columns columns = request.pictured ? with_pictured(requested, scenario) : requested;
-  const auto printed =
-      scenario::measures_named(scenario::split_measures(request.measures), scenario);
-  std::vector<scenario::Expectation> expectations;
-  for (const std::string& text : request.expect) {
-    expectations.push_back(scenario::read_expectation("--expect", text, scenario));
+struct PausingRun::State {
+  State(const RunRequest& of, Watch& its)
+      : request(of),
+        watch(its),
+        scenario(of.scenario),
+        wanted(of),
+        sensitivity(of, wanted.requested, wanted.printed),
+        headers(checked_headers()),
+        host(make_host(watch)),
+        model(assemble(scenario, needed_for(wanted.columns, wanted.measures), host)),
+        grid(scenario.time) {
+    for (std::size_t c = 0; c < wanted.requested.size(); ++c) {
+      const scenario::Column& column = *wanted.requested[c];
+      if (column.needs != scenario::Needs::own) continue;
+      headers[c].unit = units.emplace_back(host.unit_of(column.name).value_or("1"));
+    }
+    request.ready();
+    if (!request.output.empty()) writer = file::open_table(request.output, headers);
+    if (!request.summary.empty()) summary_file.emplace(request.summary);
+    if (writer) writer->keep(request.inputs);
+    const std::size_t requested = wanted.requested.size();
+    // Derivatives are known only after the last row.
+    file::TableWriter* const beside = sensitivity.wanted() ? nullptr : writer.get();
+    if (request.pictured || request.keeps_rows || sensitivity.wanted() ||
+        (!writer && !request.rows_to)) {
+      kept.emplace(scenario::names_of(wanted.columns), beside, requested);
+    }
+    rows.emplace(request, requested, kept ? &*kept : beside);
+    with_places(scenario, [&] {
+      simulated.emplace(scenario, model, grid,
+                        RowsAndMeasures{wanted.columns, requested, wanted.measures}, *rows, watch);
+    });
   }
-  auto measures = printed;
-  const std::vector<std::size_t> expected = scenario::add_expected(measures, expectations);
-  const Sensitivity sensitivity(request, requested, printed);
 
-  // Check names before a controller starts, and long before the file is opened.
-  std::vector<file::ColumnHeader> headers = headers_of(requested);
-  sensitivity.add_headers(headers);
-  if (!request.output.empty()) file::require_table_name(request.output);
-  if (request.replaces_its_like_only) {
-    file::require_like(request.output, file::table_with(file::csv_header(headers)));
+  [[nodiscard]] std::vector<file::ColumnHeader> checked_headers() const {
+    std::vector<file::ColumnHeader> all = headers_of(wanted.requested);
+    sensitivity.add_headers(all);
+    if (!request.output.empty()) file::require_table_name(request.output);
+    if (request.replaces_its_like_only) {
+      file::require_like(request.output, file::table_with(file::csv_header(all)));
+    }
+    return all;
   }
-  controller::Host host = make_host(watch);
-  const model::Model model = assemble(scenario, needed_for(columns, measures), host);
-  const solve::OutputGrid grid(scenario.time);
+
+  [[nodiscard]] RunResult finish();
+
+  const RunRequest& request;
+  Watch& watch;
+  const Scenario& scenario;
+  Wanted wanted;
+  Sensitivity sensitivity;
+  std::vector<file::ColumnHeader> headers;
+  controller::Host host;
+  model::Model model;
+  solve::OutputGrid grid;
   std::deque<std::string> units;  // from the scene's own controller
-  for (std::size_t c = 0; c < requested.size(); ++c) {
-    if (requested[c]->needs != scenario::Needs::own) continue;
-    headers[c].unit = units.emplace_back(host.unit_of(requested[c]->name).value_or("1"));
-  }
-
-  request.ready();
   std::unique_ptr<file::TableWriter> writer;
-  if (!request.output.empty()) writer = file::open_table(request.output, headers);
-  std::unique_ptr<file::AtomicFile> summary_file;
-  if (!request.summary.empty()) {
-    summary_file = std::make_unique<file::AtomicFile>(request.summary);
-  }
-  if (writer) writer->keep(request.inputs);
-  // Derivatives are known only after the last row.
-  file::TableWriter* const beside = sensitivity.wanted() ? nullptr : writer.get();
+  std::optional<file::AtomicFile> summary_file;
   std::optional<file::MemoryTable> kept;
-  if (request.pictured || request.keeps_rows || sensitivity.wanted() ||
-      (!writer && !request.rows_to)) {
-    kept.emplace(scenario::names_of(columns), beside, requested.size());
-  }
-  RowsTo rows(request, requested.size(), kept ? &*kept : beside);
+  std::optional<RowsTo> rows;
+  std::optional<SimulatedRun> simulated;
+};
 
+RunResult PausingRun::State::finish() {
   Simulation simulation = with_places(scenario, [&] {
-    Simulation simulated =
-        simulate(scenario, model, grid, {columns, requested.size(), measures}, rows, watch);
-    if (simulated.result.code == ExitCode::done) host.require_printed();
-    return simulated;
+    Simulation of = simulated->finish();
+    if (of.result.code == ExitCode::done) host.require_printed();
+    return of;
   });
   RunResult result = std::move(simulation.result);
   record::RunSummary& summary = result.summary;
@@ -186,21 +224,21 @@ RunResult run(const RunRequest& request, Watch& watch) {
   if (!remark.empty() && result.code == ExitCode::done) {
     summary.warnings.push_back("warning: " + remark);
   }
-  for (std::size_t m = 0; m < printed.size(); ++m) {
-    summary.measures.emplace_back(printed[m].name, simulation.measures[m]);
+  for (std::size_t m = 0; m < wanted.printed.size(); ++m) {
+    summary.measures.emplace_back(wanted.printed[m].name, simulation.measures[m]);
   }
   file::Table table;
   if (kept) table = kept->take();
   std::vector<std::vector<double>> derivatives;
   if (sensitivity.wanted()) {
     derivatives = sensitivity.find(result, watch);
-    if (writer) append(table, requested.size(), derivatives, *writer);
+    if (writer) append(table, wanted.requested.size(), derivatives, *writer);
   }
   for (const file::ColumnHeader& header : headers) {
     result.columns.emplace_back(header.name);
     result.units.emplace_back(header.unit);
   }
-  judge(expectations, expected, simulation, result);
+  judge(wanted.expectations, wanted.expected, simulation, result);
   result.rows_requested = grid.size();
   if (writer && summary.error_estimate) {
     writer->add_column(header_of(scenario::position_error), simulation.row_estimates);
@@ -224,6 +262,24 @@ RunResult run(const RunRequest& request, Watch& watch) {
     }
   }
   return result;
+}
+
+PausingRun::PausingRun(const RunRequest& request, Watch& watch)
+    : state_(std::make_unique<State>(request, watch)) {}
+PausingRun::~PausingRun() = default;
+
+bool PausingRun::advance() {
+  return with_places(state_->scenario, [this] { return state_->simulated->advance(); });
+}
+
+RunResult PausingRun::finish() {
+  return state_->finish();
+}
+
+RunResult run(const RunRequest& request, Watch& watch) {
+  PausingRun run(request, watch);
+  run.advance();
+  return run.finish();
 }
 
 void reads_scenario(file::Outputs& outputs, const std::string& file, const Scenario& scenario) {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,6 +65,26 @@ struct RunResult {
 
 // Throws InputError, OutputError, and ControllerFault if the scene's own controller does not begin.
 [[nodiscard]] RunResult run(const RunRequest& request, Watch& watch);
+
+// The same for a run that pauses while its controller has no answer
+// (model::ExternalController::has_answer()).
+class PausingRun {
+ public:
+  // Begins the run. Throws as run() does. The arguments must live.
+  PausingRun(const RunRequest& request, Watch& watch);
+  ~PausingRun();
+  PausingRun(const PausingRun&) = delete;
+  PausingRun& operator=(const PausingRun&) = delete;
+
+  // Goes on to the end, or to a sample without an answer. Returns whether it has reached the end.
+  bool advance();
+  // Finishes the files. Call it once, at the end.
+  [[nodiscard]] RunResult finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 // No output may overwrite what is read. Declares the scenario, its tables and the files of its
 // controller as read.

@@ -180,34 +180,6 @@ Ended how(solve::Ending ending) {
   return endings[static_cast<std::size_t>(ending)];
 }
 
-// What was integrated, and how well, as far as the run knows.
-struct Integration : study::ErrorControlled {
-  bool has_estimate = false;  // only for solver.error
-  double cpu_seconds = 0;
-
-  [[nodiscard]] bool within_error() const { return met || !has_estimate; }
-};
-
-Integration integrate(const Scenario& scenario, const model::Model& model,
-                      const solve::OutputGrid& grid, solve::StateSink& sink,
-                      const solve::Watch& watch) {
-  const CpuClock clock;
-  const Solver& solver = scenario.solver;
-  Integration integration;
-  if (solver.error) {
-    static_cast<study::ErrorControlled&>(integration) =
-        study::integrate_to_error(model, solver.method, *solver.error, grid, sink, watch);
-    integration.has_estimate = integration.outcome.ending == solve::Ending::done ||
-                               integration.outcome.ending == solve::Ending::stopped;
-  } else {
-    integration.tolerances = {solver.rtol, solver.atol};
-    integration.outcome =
-        solve::integrate(model, solver.method, integration.tolerances, grid, sink, watch);
-  }
-  integration.cpu_seconds = clock.seconds();
-  return integration;
-}
-
 // Rounds up to two digits, so that the user can ask for the error shown.
 double rounded_up(double error) {
   const double digit = std::pow(10.0, std::floor(std::log10(error)) - 1);
@@ -275,71 +247,98 @@ solve::Watch watch_of_run(Watch& watch, double end) {
           }};
 }
 
-// Measures of the motion and of the loop near home, as one list.
-void take_measures(const Scenario& scenario, const model::Model& model,
-                   const std::vector<scenario::Measure>& measures,
-                   const scenario::SplitMeasures& split, record::Recorder& recorder,
-                   const solve::Outcome& outcome, Simulation& into) {
-  std::vector<double> of_motion(split.of_motion.size());
-  recorder.finish(outcome, of_motion.data());
-  into.measures.resize(measures.size());
-  into.whys.resize(measures.size());
-  for (std::size_t m = 0; m < of_motion.size(); ++m) {
-    into.measures[split.motion_places[m]] = of_motion[m];
-    into.whys[split.motion_places[m]] = recorder.whys()[m];
+}  // namespace
+
+SimulatedRun::SimulatedRun(const Scenario& scenario, const model::Model& model,
+                           const solve::OutputGrid& grid, RowsAndMeasures wanted,
+                           file::TableWriter& writer, Watch& watch)
+    : scenario_(scenario),
+      model_(model),
+      grid_(grid),
+      wanted_(std::move(wanted)),
+      watch_(watch),
+      constants_(model::constants_of(scenario)),
+      split_(scenario::split_loop_measures(wanted_.measures)),
+      recorder_({wanted_.columns, split_.of_motion, true}),
+      sink_(&recorder_),
+      solve_watch_(watch_of_run(watch, grid.end())) {
+  recorder_.begin(model, constants_, grid, &writer);
+  if (record::EdgeNote::wanted(scenario)) {
+    sink_ = &edge_.emplace(model, scenario.plate, grid, recorder_);
   }
-  model::LoopAnalysis analysis(scenario, model, model::parts_of(measures));
-  for (const std::size_t m : split.loop_places) {
-    const model::LoopAnalysis::Value found = analysis.value_of(*measures[m].loop);
+  const Solver& solver = scenario.solver;
+  integration_.tolerances = {solver.rtol, solver.atol};
+  if (!solver.error) {
+    integrate_ =
+        solve::begin(model, solver.method, integration_.tolerances, grid, *sink_, solve_watch_);
+  }
+  watch_.start(0);
+}
+
+bool SimulatedRun::advance() {
+  const CpuClock clock;
+  bool is_over = true;
+  if (integrate_) {
+    auto outcome = integrate_();
+    is_over = outcome.has_value();
+    if (is_over) integration_.outcome = *std::move(outcome);
+  } else {
+    const Solver& solver = scenario_.solver;
+    static_cast<study::ErrorControlled&>(integration_) = study::integrate_to_error(
+        model_, solver.method, *solver.error, grid_, *sink_, solve_watch_);
+    const solve::Ending ending = integration_.outcome.ending;
+    integration_.has_estimate = ending == solve::Ending::done || ending == solve::Ending::stopped;
+  }
+  integration_.cpu_seconds += clock.seconds();
+  return is_over;
+}
+
+// Measures of the motion and of the loop near home, as one list.
+void SimulatedRun::take_measures(Simulation& into) {
+  std::vector<double> of_motion(split_.of_motion.size());
+  recorder_.finish(integration_.outcome, of_motion.data());
+  into.measures.resize(wanted_.measures.size());
+  into.whys.resize(wanted_.measures.size());
+  for (std::size_t m = 0; m < of_motion.size(); ++m) {
+    into.measures[split_.motion_places[m]] = of_motion[m];
+    into.whys[split_.motion_places[m]] = recorder_.whys()[m];
+  }
+  model::LoopAnalysis analysis(scenario_, model_, model::parts_of(wanted_.measures));
+  for (const std::size_t m : split_.loop_places) {
+    const model::LoopAnalysis::Value found = analysis.value_of(*wanted_.measures[m].loop);
     into.measures[m] = found.value;
     into.whys[m] = found.why;
   }
 }
 
-}  // namespace
-
-Simulation simulate(const Scenario& scenario, const model::Model& model,
-                    const solve::OutputGrid& grid, const RowsAndMeasures& wanted,
-                    file::TableWriter& writer, Watch& watch) {
-  const model::BallConstants constants = model::constants_of(scenario);
-  const scenario::SplitMeasures split = scenario::split_loop_measures(wanted.measures);
-  record::Recorder recorder({wanted.columns, split.of_motion, true});
-  recorder.begin(model, constants, grid, &writer);
-  std::optional<record::EdgeNote> edge;
-  if (record::EdgeNote::wanted(scenario)) edge.emplace(model, scenario.plate, grid, recorder);
-  solve::StateSink& sink = edge ? static_cast<solve::StateSink&>(*edge) : recorder;
-
-  watch.start(0);
-  Integration integration = integrate(scenario, model, grid, sink, watch_of_run(watch, grid.end()));
-  watch.end();
-
+Simulation SimulatedRun::finish() {
+  watch_.end();
   Simulation simulation;
-  take_measures(scenario, model, wanted.measures, split, recorder, integration.outcome, simulation);
-  simulation.end_row = recorder.end_row(integration.outcome);
-  simulation.row_estimates = std::move(integration.row_estimates);
+  take_measures(simulation);
+  const solve::Outcome& outcome = integration_.outcome;
+  simulation.end_row = recorder_.end_row(outcome);
+  simulation.row_estimates = std::move(integration_.row_estimates);
 
   RunResult& result = simulation.result;
-  record::RunSummary& summary = result.summary = summary_of(scenario, model, integration);
-  summary.reason = shortfall(scenario, model, integration);
-  solve::Why why =
-      integration.within_error() ? integration.outcome.why : solve::Why::error_out_of_reach;
-  const std::string not_finite = recorder.why_not_finite(wanted.finite_columns);
+  record::RunSummary& summary = result.summary = summary_of(scenario_, model_, integration_);
+  summary.reason = shortfall(scenario_, model_, integration_);
+  solve::Why why = integration_.within_error() ? outcome.why : solve::Why::error_out_of_reach;
+  const std::string not_finite = recorder_.why_not_finite(wanted_.finite_columns);
   if (summary.reason.empty() && !not_finite.empty()) {
     summary.reason = "the motion was computed to its end, but " + not_finite +
                      ".\n  There it is beyond the range of doubles, or not defined.";
     why = solve::Why::not_finite;
   }
   summary.reason_code = solve::name_of(why);
-  summary.warnings =
-      warnings_of(scenario, model, integration.outcome.ending == solve::Ending::failed,
-                  edge ? edge->left() : std::nullopt);
+  summary.warnings = warnings_of(scenario_, model_, outcome.ending == solve::Ending::failed,
+                                 edge_ ? edge_->left() : std::nullopt);
   const std::string not_measured =
-      scenario::why_not_finite(wanted.measures, simulation.measures.data(), simulation.whys);
+      scenario::why_not_finite(wanted_.measures, simulation.measures.data(), simulation.whys);
   if (!not_measured.empty()) summary.warnings.push_back("note: " + not_measured);
-  summary.peaks = recorder.peaks();
-  result.noted = noted_text(integration.outcome.occurrences);
-  result.code = how(integration.outcome.ending).code;
-  const bool whole = integration.within_error() && not_finite.empty();
+  summary.peaks = recorder_.peaks();
+  result.noted = noted_text(outcome.occurrences);
+  result.code = how(outcome.ending).code;
+  const bool whole = integration_.within_error() && not_finite.empty();
   if (result.code == ExitCode::done && !whole) result.code = ExitCode::ended_early;
   return simulation;
 }

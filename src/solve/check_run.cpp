@@ -55,7 +55,7 @@ Outcome integrate_check_run(const model::Model& model, CheckRun how, Tolerances 
       const auto make_stepper = [&](const model::Model& of) {
         return std::make_unique<DividedStepper>(of, how, tolerances, grid.end());
       };
-      return integrate_hybrid(model, make_stepper, tolerances, grid, sink, watch);
+      return begin_hybrid(model, make_stepper, tolerances, grid, sink, watch)->advance().value();
     }
     DividedStepper stepper(model, how, tolerances, grid.end());
     return run_through(stepper, model, grid, sink, watch);

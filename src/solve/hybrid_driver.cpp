@@ -21,7 +21,7 @@ using model::Effect;
 // integrator hides its direction.
 constexpr double near_rest = 10;
 
-class HybridIntegration {
+class HybridIntegration : public HybridRun {
  public:
   HybridIntegration(const model::Model& model, const MakeStepper& make_stepper,
                     Tolerances tolerances, const OutputGrid& grid, StateSink& sink,
@@ -36,19 +36,23 @@ class HybridIntegration {
         guards_(run_, *stepper_),
         z_(run_.model().initial) {}
 
-  Outcome run() {
+  std::optional<Outcome> advance() override {
     try {
-      return start() ? go_on() : std::move(outcome_);
+      while (act(state_)) {
+        if (waits_) return {};
+        state_ = after(state_);
+      }
     } catch (const model::ControllerFault& fault) {
       end(fault.interrupted() ? Ending::interrupted : Ending::failed, asked_at_);
       outcome_.reason = fault.what();
       if (!fault.interrupted()) outcome_.why = Why::controller;
-      return std::move(outcome_);
     }
+    return std::move(outcome_);
   }
 
  private:
   enum class State {
+    start,   // handle what is due at t = 0
     step,    // make a step of the integrator
     search,  // find what happens first in the rest of the step
     jump,    // handle the switch at at_, and restart the integrator
@@ -58,6 +62,8 @@ class HybridIntegration {
   // All transitions. Actions return false if they end the run.
   [[nodiscard]] State after(State state) const {
     switch (state) {
+      case State::start:
+        return State::step;
       case State::step:
         return State::search;
       case State::search:
@@ -72,6 +78,8 @@ class HybridIntegration {
 
   bool act(State state) {
     switch (state) {
+      case State::start:
+        return start();
       case State::step:
         return step();
       case State::search:
@@ -81,19 +89,18 @@ class HybridIntegration {
       case State::advance:
         break;
     }
-    return advance();
+    return move_on();
   }
 
-  Outcome go_on() {
-    from_ = at_ = limit_ = stepper_->time();
-    State state = State::step;
-    while (act(state)) state = after(state);
-    return std::move(outcome_);
+  // Handles what is due at t. Returns false if the controller has no answer yet: then the present
+  // state is tried again.
+  bool handle_time_event(double t) {
+    waits_ = !run_.handle_time_event(t, z_.data());
+    return !waits_;
   }
 
-  // Handles events due at t = 0. Returns false if the run ends there.
   bool start() {
-    run_.handle_time_event(0, z_.data());
+    if (!handle_time_event(0)) return true;
     if (run_.unsettled()) return fail_unsettled(0);
     rows_.write_first(z_);
     if (check_events(0, 0) == Effect::stop) return end(Ending::stopped, 0);
@@ -182,7 +189,7 @@ class HybridIntegration {
     // Whether the motion continues in the same mode from the same state.
     bool goes_on = in_closed_form_ && effect_ == Effect::none;
     if (run_.is_due(at_)) {
-      run_.handle_time_event(at_, z_.data());
+      if (!handle_time_event(at_)) return true;
       goes_on = goes_on && !run_.touched();
     }
     if (run_.unsettled()) return fail_unsettled(at_);
@@ -212,7 +219,7 @@ class HybridIntegration {
   }
 
   // Continues from at_, unless the run is too slow.
-  bool advance() {
+  bool move_on() {
     from_ = at_;
     // Count only steps and state events before limit_. Samples and stops say nothing about the
     // pace.
@@ -301,6 +308,8 @@ class HybridIntegration {
         "the servos' stops and the commands' limits trigger each other endlessly at one instant");
   }
 
+  State state_ = State::start;
+  bool waits_ = false;  // for an answer of the controller
   model::HybridSystem run_;
   const OutputGrid& grid_;
   const Watch& watch_;
@@ -327,10 +336,10 @@ class HybridIntegration {
 
 }  // namespace
 
-Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
-                         Tolerances tolerances, const OutputGrid& grid, StateSink& sink,
-                         const Watch& watch) {
-  return HybridIntegration(model, make_stepper, tolerances, grid, sink, watch).run();
+std::unique_ptr<HybridRun> begin_hybrid(const model::Model& model, const MakeStepper& make_stepper,
+                                        Tolerances tolerances, const OutputGrid& grid,
+                                        StateSink& sink, const Watch& watch) {
+  return std::make_unique<HybridIntegration>(model, make_stepper, tolerances, grid, sink, watch);
 }
 
 }  // namespace bbsim::solve

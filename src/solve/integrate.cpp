@@ -53,17 +53,33 @@ std::unique_ptr<Stepper> make_stepper(const model::Model& model, Method method,
   throw std::logic_error("make_stepper: no integrator was chosen");
 }
 
-Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
-                  const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+std::function<std::optional<Outcome>()> begin(const model::Model& model, Method method,
+                                              Tolerances tolerances, const OutputGrid& grid,
+                                              StateSink& sink, const Watch& watch) {
   const Method chosen = choose_method(method);
-  const auto stepper_of = [&](const model::Model& any) {
+  const auto stepper_of = [chosen, tolerances, &grid](const model::Model& any) {
     return make_stepper(any, chosen, tolerances, grid);
   };
-  Outcome outcome = model.hybrid()
-                        ? integrate_hybrid(model, stepper_of, tolerances, grid, sink, watch)
-                        : run_through(*stepper_of(model), model, grid, sink, watch);
-  outcome.method = chosen;
-  return outcome;
+  std::function<std::optional<Outcome>()> advance;
+  if (model.hybrid()) {
+    const std::shared_ptr<HybridRun> run =
+        begin_hybrid(model, stepper_of, tolerances, grid, sink, watch);
+    advance = [run] { return run->advance(); };
+  } else {
+    advance = [stepper_of, &model, &grid, &sink, &watch] {
+      return run_through(*stepper_of(model), model, grid, sink, watch);
+    };
+  }
+  return [chosen, advance] {
+    std::optional<Outcome> outcome = advance();
+    if (outcome) outcome->method = chosen;
+    return outcome;
+  };
+}
+
+Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
+                  const OutputGrid& grid, StateSink& sink, const Watch& watch) {
+  return begin(model, method, tolerances, grid, sink, watch)().value();
 }
 
 }  // namespace bbsim::solve

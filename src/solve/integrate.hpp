@@ -4,7 +4,9 @@
 // Integrates a model with a given method, or with one that bbsim chooses.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "model/model.hpp"
 #include "solve/outcome.hpp"
@@ -27,5 +29,12 @@ namespace bbsim::solve {
 // throws. Throws InputError as make_stepper() does.
 [[nodiscard]] Outcome integrate(const model::Model& model, Method method, Tolerances tolerances,
                                 const OutputGrid& grid, StateSink& sink, const Watch& watch = {});
+
+// The same for a run that pauses: each call goes on to the end, or returns nothing at a sample for
+// which an external controller has no answer yet (HybridRun::advance()). The arguments must live.
+[[nodiscard]] std::function<std::optional<Outcome>()> begin(const model::Model& model,
+                                                            Method method, Tolerances tolerances,
+                                                            const OutputGrid& grid, StateSink& sink,
+                                                            const Watch& watch);
 
 }  // namespace bbsim::solve

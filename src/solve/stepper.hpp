@@ -83,11 +83,20 @@ using MakeStepper = std::function<std::unique_ptr<Stepper>(const model::Model& m
 // those of the stepper. The integrator stops at time events. A state event is the root of a guard
 // on the step's polynomial, accurate to the rounding of the time.
 //
-// Rows have Model::row_size() numbers. A row exactly at a switch has the state after it. Returns
-// Ending::stopped if an event stops the scene. Throws what `sink` throws, and InputError if `part`
-// has a state that does not fit.
-[[nodiscard]] Outcome integrate_hybrid(const model::Model& model, const MakeStepper& make_stepper,
-                                       Tolerances tolerances, const OutputGrid& grid,
-                                       StateSink& sink, const Watch& watch);
+// Rows have Model::row_size() numbers. A row exactly at a switch has the state after it.
+class HybridRun {
+ public:
+  virtual ~HybridRun() = default;
+
+  // Goes on to the end of the run, or to a sample for which an external controller has no answer
+  // yet; then it returns nothing. Call it again once there is an answer. The end is
+  // Ending::stopped if an event stops the scene. Throws what the sink throws.
+  [[nodiscard]] virtual std::optional<Outcome> advance() = 0;
+};
+// All arguments but the tolerances must live as long as the run.
+[[nodiscard]] std::unique_ptr<HybridRun> begin_hybrid(const model::Model& model,
+                                                      const MakeStepper& make_stepper,
+                                                      Tolerances tolerances, const OutputGrid& grid,
+                                                      StateSink& sink, const Watch& watch);
 
 }  // namespace bbsim::solve

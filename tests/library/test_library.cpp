@@ -79,8 +79,12 @@ TEST_CASE("impossible requests are refused like faulty scenarios") {
   CHECK_FALSE(faults_of([] { (void)bbsim::Scenario::from_file(configs + "none.yaml"); }).empty());
   CHECK_FALSE(faults_of([] { (void)bbsim::Scenario::from_text("a: [1").check(); }).empty());
   CHECK_FALSE(faults_of([] { (void)bbsim::run(circle()).column("z"); }).empty());
-  // The scene has no samples.
+  // The scene has no samples; the second would need several runs.
   CHECK_FALSE(faults_of([] { const bbsim::Stepper stepper(circle()); }).empty());
+  const bbsim::Scenario rig = bbsim::Scenario::from_file(configs + "rig.yaml");
+  CHECK_FALSE(faults_of([&] {
+                const bbsim::Stepper stepper(bbsim::Scenario(rig).set("solver.error", 1e-6));
+              }).empty());
 }
 
 TEST_CASE("rows to the result, to a callback or to neither are the same") {

@@ -57,7 +57,7 @@ struct Both {
 Both run_of(const model::Model& model, const solve::OutputGrid& grid,
             const solve::MakeStepper& stepper) {
   Both run(model.row_size());
-  run.outcome = solve::integrate_hybrid(model, stepper, tight, grid, run.rows, {});
+  run.outcome = solve::begin_hybrid(model, stepper, tight, grid, run.rows, {})->advance().value();
   return run;
 }
 
@@ -205,8 +205,10 @@ TEST_CASE("pieces too long for their tolerance are split") {
   CHECK(pieces.outcome.statistics.error_test_failures > 0);
   // A looser tolerance is met with fewer steps.
   Both loose(model.row_size());
-  loose.outcome = solve::integrate_hybrid(model, by_pieces(grid, {1e-6, 1e-8}), {1e-6, 1e-8}, grid,
-                                          loose.rows, {});
+  loose.outcome =
+      solve::begin_hybrid(model, by_pieces(grid, {1e-6, 1e-8}), {1e-6, 1e-8}, grid, loose.rows, {})
+          ->advance()
+          .value();
   CHECK(largest_difference(model, general, loose) < 1e-4);
   CHECK(loose.outcome.statistics.steps < pieces.outcome.statistics.steps);
 }
@@ -328,7 +330,8 @@ TEST_CASE("bounds of a piece contain its columns") {
     const solve::OutputGrid grid(scene.time);
     Looks looks(model, constants, columns);
     solve::Trajectory rows(model.row_size(), &looks);
-    static_cast<void>(solve::integrate_hybrid(model, by_pieces(grid), tight, grid, rows, {}));
+    static_cast<void>(
+        solve::begin_hybrid(model, by_pieces(grid), tight, grid, rows, {})->advance().value());
     CHECK(looks.pieces > 5);
     CHECK(looks.wide == 0);  // a close look never widens the bounds
     CHECK(looks.trends > looks.pieces);

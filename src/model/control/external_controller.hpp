@@ -49,6 +49,10 @@ class ExternalController {
   // Begins a run; the controller forgets any earlier one. Throws ControllerFault.
   virtual void begin() = 0;
 
+  // Whether it can answer a sample now. If not, the run pauses before the sample, and asks again
+  // when it continues.
+  virtual bool has_answer(const ControllerSample& /*sample*/) { return true; }
+
   // Returns as many commands as the sample has servos, all finite. Writes the numbers that
   // SampledLoop::own_columns names to `own`. Throws ControllerFault.
   virtual Commands command(const ControllerSample& sample, double* own) = 0;

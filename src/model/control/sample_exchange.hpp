@@ -112,11 +112,17 @@ class SampleExchange {
   }
   // The sensor's reading for the sample: of its exposure, or of the last frame that has arrived by
   // `now`. Empty if the sensor missed the ball.
-  [[nodiscard]] std::optional<Pair> begin_sample(double now) {
-    go_on(sample_);
-    if (!frames_) return seen_.pop().what();
+  [[nodiscard]] std::optional<Pair> reading(double now) {
+    if (!frames_) return seen_.front().what();
     while (!seen_.empty() && seen_.front().arrives <= now) frame_ = seen_.pop().what();
     return frame_;
+  }
+  // The same, and goes on to the next sample.
+  std::optional<Pair> begin_sample(double now) {
+    const std::optional<Pair> read = reading(now);
+    if (!frames_) seen_.pop();
+    go_on(sample_);
+    return read;
   }
   // The commands for phi and theta, or for three servos.
   void end_sample(const std::array<double, most_servos>& commands) { commands_.push() = commands; }

@@ -35,10 +35,13 @@ HybridSystem::HybridSystem(const Model& model, double resolution)
   for_each(parts_, [this](const auto& part) { part.append_scales(guard_scales_); });
 }
 
-void HybridSystem::handle_time_event(double t, double* z) {
+bool HybridSystem::handle_time_event(double t, double* z) {
   observe(t, z);
-  while (samples_at(t)) sampling()->take(t, instant_end(t), z);
+  while (samples_at(t)) {
+    if (!sampling()->take(t, instant_end(t), z)) return false;
+  }
   act(t, z);
+  return true;
 }
 
 void HybridSystem::observe(double t, const double* z) {

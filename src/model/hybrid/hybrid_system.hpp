@@ -86,8 +86,9 @@ class HybridSystem {
   }
 
   // Handles all events due at t, which is the start or next_time_event(). May change the states z.
-  // Throws ControllerFault if an external controller fails.
-  void handle_time_event(double t, double* z);
+  // Returns false, and has changed nothing, if an external controller has no answer yet. Throws
+  // ControllerFault if it fails.
+  bool handle_time_event(double t, double* z);
 
   // The steps of handle_time_event(), for integrators that compute the laws of several runs
   // together: observe(); while samples_at(), begin and end a sample of sampling(); act().

@@ -62,10 +62,9 @@ const std::array<Jet<double>, 2>& Sampling::reference_at(double t) {
   });
 }
 
-void Sampling::take(double t, double end, const double* z) {
-  const double number = exchange_.sample_number();
+bool Sampling::take(double t, double end, const double* z) {
+  if (model_.rig().sampled->external) return ask_external(t, end, z);
   const std::optional<Pair> seen = begin(end);
-  if (model_.rig().sampled->external) return ask_external(t, number, seen, z);
   const auto [angle, rate] = KnownServos(model_, t, z);
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
   if (!is_direct_ && controller_.law().law.feeds_servos_back()) {
@@ -73,28 +72,32 @@ void Sampling::take(double t, double end, const double* z) {
   }
   const Pair command = controller_.command(seen, servo, reference_at(t));
   this->end(command, controller_.last_seen());
+  return true;
 }
 
-void Sampling::ask_external(double t, double number, const std::optional<Pair>& seen,
-                            const double* z) {
+bool Sampling::ask_external(double t, double end, const double* z) {
   const Rig& rig = model_.rig();
-  ExternalController& external = *rig.sampled->external;
-  if (number == 0) external.begin();
+  const bool legs = rig.sampled->legs;
   const auto [angle, rate] = KnownServos(model_, t, z);
-  const auto ask = [&](std::span<const double> angles, std::span<const double> rates) {
-    return external.command(
-        {static_cast<std::size_t>(number), t, seen, angles, rates, reference_at(t)}, own_.data());
-  };
-  const Pair measured = seen.value_or(measured_);
-  if (rig.sampled->legs) {
-    const Commands asked = ask({angle, 3}, {rate, 3});
-    return end(controller_.within_limits({asked[0], asked[1]}), measured,
-               controller_.within_limits({asked[2], 0})[0]);
-  }
   double servo[4] = {angle[0], angle[1], rate[0], rate[1]};
-  if (rig.mechanism.three) rig.mechanism.believed(angle, rate, servo);
-  const Commands asked = ask({servo, 2}, {servo + 2, 2});
-  end(controller_.within_limits({asked[0], asked[1]}), measured);
+  if (rig.mechanism.three && !legs) rig.mechanism.believed(angle, rate, servo);
+  using Numbers = std::span<const double>;
+  const double number = exchange_.sample_number();
+  const std::optional<Pair> seen = exchange_.reading(end);
+  const ControllerSample sample{static_cast<std::size_t>(number),
+                                t,
+                                seen,
+                                legs ? Numbers(angle) : Numbers(servo, 2),
+                                legs ? Numbers(rate) : Numbers(servo + 2, 2),
+                                reference_at(t)};
+  ExternalController& external = *rig.sampled->external;
+  if (!external.has_answer(sample)) return false;
+  begin(end);
+  if (number == 0) external.begin();
+  const Commands asked = external.command(sample, own_.data());
+  this->end(controller_.within_limits({asked[0], asked[1]}), seen.value_or(measured_),
+            legs ? controller_.within_limits({asked[2], 0})[0] : 0);
+  return true;
 }
 
 std::array<double, most_servos> Sampling::take_command(RigMode& mode) {

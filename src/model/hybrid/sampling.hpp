@@ -31,14 +31,15 @@ class Sampling : public Part {
   [[nodiscard]] double instant_end(double t) const { return exchange_.instant_end(t); }
 
   // A sample at t, whose instant ends at `end`: either begin(), then end() with the command of the
-  // law; or take(), which computes the law.
+  // law; or take(), which computes the law. take() returns false, and has changed nothing, if an
+  // external controller has no answer yet.
   [[nodiscard]] bool samples_by(double end) const { return exchange_.samples_by(end); }
-  [[nodiscard]] std::optional<Pair> begin(double end) { return exchange_.begin_sample(end); }
+  std::optional<Pair> begin(double end) { return exchange_.begin_sample(end); }
   void end(const Pair& command, const Pair& measured, double third = 0) {
     exchange_.end_sample({command[0], command[1], third});
     measured_ = measured;
   }
-  void take(double t, double end, const double* z);
+  bool take(double t, double end, const double* z);
   [[nodiscard]] const std::array<Jet<double>, 2>& reference_at(double t);
   void share_reference(SharedSignals& shared) { shared_reference_ = &shared; }
 
@@ -57,7 +58,7 @@ class Sampling : public Part {
     return !(least_force_ > 0) || normal_force(t, z) >= least_force_;
   }
   [[nodiscard]] double normal_force(double t, const double* z) const;  // N
-  void ask_external(double t, double number, const std::optional<Pair>& seen, const double* z);
+  bool ask_external(double t, double end, const double* z);
 
   const SwitchedModel& model_;
   bool is_direct_;      // servos follow commands without a linkage
