@@ -80,27 +80,30 @@ void RigLanes::begin(std::size_t l, const Rig& rig) {
   start(l);
 }
 
-// Evaluates the reference at the start and all nodes but the first.
+// Evaluates the reference at the start and all nodes but the first, once for lanes with the same
+// piece.
 void RigLanes::fill_reference() {
   LaneReference& reference = *reference_;
-  std::size_t last = group;  // the lane whose piece reference.common is for
-  reference.shared = true;
+  std::array<std::size_t, group> first{};  // the first lane with the same piece
+  int pieces = 0;
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
-    const bool known = last < group && step_.from_[l] == step_.from_[last] &&
-                       pieces_->length[l] == pieces_->length[last];
-    if (known) continue;
-    reference.shared = last == group;
-    if (!reference.shared) break;
-    take_reference(l);
-    last = l;
+    const auto same = [&](std::size_t k) {
+      return step_.has_[k] && step_.from_[k] == step_.from_[l] &&
+             pieces_->length[k] == pieces_->length[l];
+    };
+    while (!same(first[l])) ++first[l];
+    if (first[l] == l) ++pieces;
   }
-  if (reference.shared) return;
+  reference.shared = pieces == 1;
   for (std::size_t l = 0; l < group; ++l) {
     if (!step_.has_[l]) continue;
-    take_reference(l);
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t n = 0; n < nodes; ++n) reference.at[i][n][l] = reference.common[i][n];
+    if (first[l] == l) take_reference(l);
+    for (std::size_t i = 0; i < 2 && !reference.shared; ++i) {
+      for (std::size_t n = 0; n < nodes; ++n) {
+        auto& at = reference.at[i][n];
+        at[l] = first[l] == l ? reference.common[i][n] : at[first[l]];
+      }
     }
   }
 }
