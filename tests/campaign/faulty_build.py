@@ -18,7 +18,7 @@ import time
 FOLDERS = ("src/model/", "src/solve/", "src/record/", "src/sweep/")
 ROOMS = ["model", "solve", "record", "sweep", "study", "scenario", "results"]
 SLOWEST = 0.1  # the part of the cases that runs only if the others find nothing
-ENDLESS = 30  # seconds of processor time, of a case that is ended
+ENDLESS = 30  # seconds of processor time, of a case or a golden run that is ended
 WAITS = 600  # seconds on the clock
 PATIENCE = 120  # seconds on the clock, in which a program whose cases end it is started again
 
@@ -130,7 +130,7 @@ class Copy:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             for name in names if room == "golden" else []:
-                words = ["timeout", f"{WAITS}", "cmake", f"-DBBSIM={self.bbsim}",
+                words = ["prlimit", f"--cpu={ENDLESS}", "timeout", f"{WAITS}", "cmake", f"-DBBSIM={self.bbsim}",
                          f"-DSCENARIO={self.tree}/configs/{name}.yaml", f"-DGOLDEN={self.tree}/tests/golden/{name}.csv",
                          "-P", self.tree / "tests/golden/compare.cmake"]
                 results[name] = (subprocess.run(words, cwd=folder, capture_output=True).returncode == 0, 0)
