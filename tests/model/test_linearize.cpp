@@ -409,6 +409,15 @@ TEST_CASE("the phase margin of a sampled loop is that of its law and plant in z"
   CHECK(std::arg(-l) == Approx(margins.phase).epsilon(1e-11));
 }
 
+TEST_CASE("both axes have the same margins, also if first-order servos kick the ball") {
+  Scenario scene = sampled_scene();
+  scene.gimbal.servo = Servo{};
+  scene.gimbal.servo->time_constant = 0.04;
+  const auto loops = linear(scene, LinearKind::loop).margins;
+  CHECK(loops.at(1).margins.phase == Approx(loops.at(0).margins.phase).epsilon(1e-11));
+  CHECK(loops.at(1).margins.gain == Approx(loops.at(0).margins.gain).epsilon(1e-11));
+}
+
 TEST_CASE("a plant under a held command is the plant's exponential, delayed") {
   const Scenario scene = sampled_scene();
   const Linearization plant = linear(scene, LinearKind::plant);
