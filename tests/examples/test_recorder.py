@@ -257,29 +257,10 @@ class Serial(unittest.TestCase):
     @unittest.skipUnless(shutil.which("c++"), "no compiler for the sketch")
     def test_the_simulated_board_is_recorded(self):
         run(self.designed, "sketch", "play.ino", "-o", "play.so")
-        (self.designed / "wiring.yaml").write_text("""
-servos:
-  phi: {pin: 9, level: "1500 us", scale: "0.1 deg"}
-  theta: {pin: 10, level: "1500 us", scale: "0.1 deg"}
-screen:
-  voltages: {x: A0, y: A1}
-  x: {counts: [12, 1012], position: ["-16 cm", "16 cm"]}
-  y: {counts: [12, 1012], position: ["-16 cm", "16 cm"]}
-  untouched: 0
-setup: during
-print: all
-""")
-        (self.designed / "board.yaml").write_text("""
-ball: {radius: 2 cm, position: [-4 cm, -5 cm]}
-gimbal: {servo: {natural_frequency: 8 Hz, damping: 0.9}}
-controller:
-  library: {file: play.so, wiring: wiring.yaml}
-  drives: angle
-  reference: {point: [0, 0]}
-  sampling: {period: 2 ms}
-time: {end: 9.2, step: 20 ms}
-""")
-        said = run(self.designed, "run", "board.yaml", "-o", "board.csv", "--force").stderr
+        for name in ("wiring.yaml", "board.yaml"):
+            shutil.copy(source / "tests/examples" / name, self.designed)
+        said = run(self.designed, "run", "board.yaml", "--set", "ball.position=[-4 cm, -5 cm]", "--set", "time.end=9.2", "-o",
+                   "board.csv", "--force").stderr  # fmt: skip
         mark = "controller: "
         lines = [line[len(mark):] for line in said.splitlines() if line.startswith(mark)]
         self.assertEqual(len(lines), 202)

@@ -4,6 +4,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import unittest
@@ -12,7 +13,7 @@ from unittest import mock
 
 import cases
 import numpy as np
-from cases import CONFIGS
+from cases import CONFIGS, SOURCE
 
 import bbsim
 from bbsim import _design, _result
@@ -274,29 +275,8 @@ class Command(Case):
     def test_sketch_on_the_board(self):
         self.design("rig.yaml", "--free", INERTIA, "--table", "it.csv", "--sketch", "play.ino", "-q")
         self.bbsim("sketch", "play.ino", "-o", "play.so")
-        # 0.1 degrees per microsecond, as the sketch assumes.
-        self.write("wiring.yaml", """
-servos:
-  phi: {pin: 9, level: "1500 us", scale: "0.1 deg"}
-  theta: {pin: 10, level: "1500 us", scale: "0.1 deg"}
-screen:
-  voltages: {x: A0, y: A1}
-  x: {counts: [12, 1012], position: ["-16 cm", "16 cm"]}
-  y: {counts: [12, 1012], position: ["-16 cm", "16 cm"]}
-  untouched: 0
-setup: during
-print: all
-""")
-        self.write("board.yaml", """
-ball: {radius: 2 cm}
-gimbal: {servo: {natural_frequency: 8 Hz, damping: 0.9}}
-controller:
-  library: {file: play.so, wiring: wiring.yaml}
-  drives: angle
-  reference: {point: [0, 0]}
-  sampling: {period: 2 ms}
-time: {end: 7.2, step: 20 ms}
-""")
+        for name in ("wiring.yaml", "board.yaml"):
+            shutil.copy(SOURCE / "tests/examples" / name, self.folder)
         said = self.bbsim("run", "board.yaml", "-o", "board.csv").stderr.splitlines()
         header, *log = [line[len("controller: ") :] for line in said if line.startswith("controller: ")]
         self.assertEqual(header, "t_ms,phi_deg,theta_deg,x_mm,y_mm")
