@@ -65,8 +65,7 @@ Scenario with_outside_commands(Scenario scenario) {
   if (scenario.solver.error) {
     throw InputError(
         "solver.error: found with commands from outside; allowed: solver.rtol, since a bound on "
-        "the "
-        "error needs several runs with the same commands");
+        "the error needs several runs with the same commands");
   }
   scenario.controller->law = Law::own;
   scenario.controller->own.emplace();
