@@ -31,7 +31,7 @@ namespace bbsim::solve {
                                 const OutputGrid& grid, StateSink& sink, const Watch& watch = {});
 
 // The same for a run that pauses: each call goes on to the end, or returns nothing at a sample for
-// which an external controller has no answer yet (HybridRun::advance()). The arguments must live.
+// which an external controller has no answer yet (HybridRun::advance()). References must live.
 [[nodiscard]] std::function<std::optional<Outcome>()> begin(const model::Model& model,
                                                             Method method, Tolerances tolerances,
                                                             const OutputGrid& grid, StateSink& sink,

@@ -93,7 +93,7 @@ class HybridRun {
   // Ending::stopped if an event stops the scene. Throws what the sink throws.
   [[nodiscard]] virtual std::optional<Outcome> advance() = 0;
 };
-// All arguments but the tolerances must live as long as the run.
+// The model, the grid, the sink and the watch must live as long as the run.
 [[nodiscard]] std::unique_ptr<HybridRun> begin_hybrid(const model::Model& model,
                                                       const MakeStepper& make_stepper,
                                                       Tolerances tolerances, const OutputGrid& grid,
