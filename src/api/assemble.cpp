@@ -62,11 +62,6 @@ Scenario with_outside_commands(Scenario scenario) {
         "controller.drives: found legs; allowed: angle, since commands from outside are for phi "
         "and theta");
   }
-  if (scenario.solver.error) {
-    throw InputError(
-        "solver.error: found with commands from outside; allowed: solver.rtol, since a bound on "
-        "the error needs several runs with the same commands");
-  }
   scenario.controller->law = Law::own;
   scenario.controller->own.emplace();
   return scenario;

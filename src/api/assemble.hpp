@@ -62,7 +62,7 @@ struct Sample {
 [[nodiscard]] Sample copy_of(const model::ControllerSample& sample);
 
 // Replaces the scenario's law with commands from outside. Throws InputError if its controller takes
-// no samples, or drives legs, and for solver.error.
+// no samples, or drives legs.
 [[nodiscard]] Scenario with_outside_commands(Scenario scenario);
 
 // Throws InputError for a command that is not finite.

@@ -49,7 +49,7 @@ class ControllerPlaceholder : public model::ExternalController {
 constexpr double most_samples = 1e5;
 
 bool fits_lanes(const Scenario& scenario) {
-  return choose_method(scenario.solver.method) == Method::radau &&
+  return !scenario.solver.error && choose_method(scenario.solver.method) == Method::radau &&
          scenario.time.end <= most_samples * scenario.controller->sampling->period;
 }
 

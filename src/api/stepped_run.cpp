@@ -46,6 +46,11 @@ struct SteppedRun::State : model::ExternalController {
 };
 
 SteppedRun::SteppedRun(const Scenario& scenario, RunRequest request) {
+  if (scenario.solver.error) {
+    throw InputError(
+        "solver.error: found with commands from outside; allowed: solver.rtol, since a bound on "
+        "the error needs several runs with the same commands");
+  }
   request.scenario = with_outside_commands(scenario);
   state_ = std::make_unique<State>(std::move(request));
   state_->request.scenario.controller->own->by =

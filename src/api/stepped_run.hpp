@@ -16,7 +16,7 @@ class SteppedRun {
  public:
   // Begins the run and advances to its first sample. Commands from outside replace the scenario's
   // law. `request` has no scenario. Throws as run() does, and InputError for a scenario whose
-  // controller takes no samples.
+  // controller takes no samples, and for solver.error, which repeats a run.
   SteppedRun(const Scenario& scenario, RunRequest request);
   // Ends a run that is not over.
   ~SteppedRun();
